@@ -1,0 +1,216 @@
+"""Everything on one port: viser's page and websocket, and the rule-table page beside them.
+
+viser starts its server with `websockets.asyncio.server.serve`. That one call is wrapped while a
+`viser.ViserServer` is constructed: every request is checked, paths under `/rules/` are ours, and
+all others go on to viser unchanged.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import inspect
+import io
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import viser
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+from .access import Access
+from .channel import Channel
+
+PREFIX = "/rules/"
+SOCKET_PATH = "/rules/socket"
+CONTENT_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+}
+
+_construction = threading.Lock()
+
+
+class ServerError(RuntimeError):
+    """The dashboard's server cannot be started; the text says why."""
+
+
+class _Server(viser.ViserServer):
+    """viser's server without its public share tunnel, which any client could ask for."""
+
+    def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
+        return None
+
+
+class Gate:
+    """What stands between the port and viser."""
+
+    def __init__(self, access: Access, channel: Channel, static: Path) -> None:
+        self.access = access
+        self.channel = channel
+        self.static = static
+        self.open = False
+        self.used = False
+        self.mismatch: str | None = None
+
+    def wrap(self, serve: Callable[..., Any]) -> Callable[..., Any]:
+        """`serve` with our checks, pages and websockets before those of the caller."""
+
+        def guarded(handler: Any, *args: Any, **kwargs: Any) -> Any:
+            self.used = True
+            viser_process = kwargs.get("process_request")
+            if not (callable(handler) and callable(viser_process)):
+                # Raising here would leave viser's constructor waiting; the gate stays shut.
+                self.mismatch = f"serve({handler!r}, *{args}, {', '.join(sorted(kwargs))})"
+            kwargs["process_request"] = self._process(viser_process)
+            return serve(self._route(handler), *args, **kwargs)
+
+        return guarded
+
+    def _route(self, viser_handler: Any) -> Callable[[ServerConnection], Any]:
+        async def handler(connection: ServerConnection) -> None:
+            if _path(connection.request) == SOCKET_PATH:
+                await self.channel.serve(connection)
+            else:
+                await viser_handler(connection)
+
+        return handler
+
+    def _process(self, viser_process: Any) -> Callable[[ServerConnection, Request], Any]:
+        async def process(connection: ServerConnection, request: Request) -> Response | None:
+            if not self.open:
+                return _plain(HTTPStatus.SERVICE_UNAVAILABLE, "the app is starting")
+            refusal = self.access.refusal(request.headers, connection.local_address[1])
+            if refusal is not None:
+                return _plain(HTTPStatus.FORBIDDEN, refusal)
+            path = _path(request)
+            if path.startswith(PREFIX):
+                if path == SOCKET_PATH and request.headers.get_all("Upgrade") == ["websocket"]:
+                    return None
+                return static_response(self.static, path, request.headers["Host"])
+            answer = viser_process(connection, request)
+            response: Response | None = await answer if inspect.isawaitable(answer) else answer
+            if response is not None:
+                response.headers["Content-Security-Policy"] = "frame-ancestors 'self'"
+            return response
+
+        return process
+
+
+def open_server(host: str, port: int, channel: Channel, label: str) -> viser.ViserServer:
+    """Start viser behind the gate.
+
+    Args:
+        host: Address to listen on; a loopback address lets in this machine only.
+        port: Port to listen on, 0 for any free one. viser takes the next free one if it is busy:
+            `get_port()` of the result tells which.
+        channel: Handles the websockets of the rule-table pages.
+        label: Title of the control panel.
+
+    Raises:
+        ServerError: The address cannot be listened on, or this version of viser starts its server
+            in a way that the gate does not know.
+    """
+    if host == "localhost":
+        host = "127.0.0.1"  # else two sockets, and any machine without IPv6 would fail on one
+    _check_address(host, port)
+    gate = Gate(Access(host), channel, static_folder())
+    with _construction, _wrapped_serve(gate), contextlib.redirect_stdout(io.StringIO()):
+        # viser's banner is kept quiet: the app prints the address itself.
+        server = _Server(host=host, port=port, label=label, verbose=False)
+    if not gate.used or gate.mismatch:
+        server.stop()
+        raise ServerError(
+            f"viser {viser.__version__} starts its server in a way unknown to geswarm, so that "
+            "requests could not be checked: "
+            f"{gate.mismatch or 'websockets.asyncio.server.serve was not called'}; "
+            "install a version of viser that geswarm allows"
+        )
+    gate.open = True
+    return server
+
+
+@contextlib.contextmanager
+def _wrapped_serve(gate: Gate) -> Iterator[None]:
+    original = websockets.asyncio.server.serve
+    websockets.asyncio.server.serve = gate.wrap(original)  # type: ignore[assignment,misc]
+    try:
+        yield
+    finally:
+        websockets.asyncio.server.serve = original  # type: ignore[misc]
+
+
+def _check_address(host: str, port: int) -> None:
+    """Raise ServerError for an address on which viser's constructor would wait for ever."""
+    if not 0 <= port <= 65535:
+        raise ServerError(f"port: expected 0 to 65535, got {port}")
+    try:
+        for family, kind, protocol, _, address in socket.getaddrinfo(
+            host, 0, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        ):
+            with socket.socket(family, kind, protocol) as probe:
+                probe.bind(address)
+    except (OSError, UnicodeError) as error:
+        raise ServerError(f"host: cannot listen on {host!r}: {error}") from error
+
+
+def static_folder() -> Path:
+    """The folder of the rule-table page: in the installed package, or beside app/ in a checkout."""
+    here = Path(__file__).resolve().parent
+    for folder in (here / "static", here.parent / "static"):
+        if folder.is_dir():
+            return folder
+    raise ServerError(f"the folder static/ is missing beside {here}; reinstall geswarm")
+
+
+def static_response(folder: Path, path: str, host: str) -> Response:
+    """A file of `folder` for a path below `/rules/`; only the names in it are known.
+
+    Args:
+        folder: Flat folder; files with a suffix in CONTENT_TYPES are served, and nothing else.
+        path: Decoded path of the request.
+        host: `host:port` that the page may open websockets to.
+    """
+    known = {entry.name: entry for entry in folder.iterdir() if entry.suffix in CONTENT_TYPES}
+    entry = known.get(path.removeprefix(PREFIX))
+    if entry is None or not entry.is_file():
+        return _plain(HTTPStatus.NOT_FOUND, "not found")
+    policy = (
+        f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
+        f"font-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+    )
+    return _response(
+        HTTPStatus.OK,
+        CONTENT_TYPES[entry.suffix],
+        entry.read_bytes(),
+        {"Content-Security-Policy": policy, "Referrer-Policy": "no-referrer"},
+    )
+
+
+def _plain(status: HTTPStatus, line: str) -> Response:
+    return _response(status, "text/plain; charset=utf-8", f"{line}\n".encode(), {})
+
+
+def _response(status: HTTPStatus, kind: str, body: bytes, more: dict[str, str]) -> Response:
+    headers = {
+        "Content-Type": kind,
+        "Content-Length": str(len(body)),
+        "Cache-Control": "no-store",
+        "X-Content-Type-Options": "nosniff",
+        "Connection": "close",
+        **more,
+    }
+    return Response(status.value, status.phrase, Headers(headers), body)
+
+
+def _path(request: Request | None) -> str:
+    return unquote(request.path.partition("?")[0]) if request is not None else ""

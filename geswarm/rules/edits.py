@@ -1,0 +1,176 @@
+"""Edits of a rule set, each a small value that makes a new rule set from an old one.
+
+Positions count from 0 here, as in the JSON messages; error messages count from 1, as on the screen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from geswarm.rules.as_json import (
+    JsonError,
+    action_from_json,
+    behaviour_from_json,
+    precondition_from_json,
+    rule_from_json,
+)
+from geswarm.rules.check import RuleSetError, require_known_names
+from geswarm.rules.model import Rule, RuleSet
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
+
+MAX_RULES = 1000
+MAX_ELEMENTS = 1000
+MAX_COMMENT = 10_000
+
+_ELEMENT_READERS: dict[str, Callable[[Any], Any]] = {
+    "preconditions": precondition_from_json,
+    "behaviours": behaviour_from_json,
+    "actions": action_from_json,
+}
+
+
+class EditError(ValueError):
+    """An edit cannot be made; the rule set stays as it is."""
+
+
+def apply_edit(
+    rule_set: RuleSet, edit: dict[str, Any], vocabulary: Vocabulary = FORAGING
+) -> RuleSet:
+    """Make one edit, given as JSON: {"do": NAME, ...} with NAME one of `EDITS`.
+
+    Raises:
+        EditError: With what was given and what was expected; `rule_set` is untouched.
+    """
+    make = EDITS.get(edit.get("do", "")) if isinstance(edit.get("do", ""), str) else None
+    if make is None:
+        raise EditError(f"unknown edit {edit.get('do')!r}; expected one of {', '.join(EDITS)}")
+    try:
+        edited = make(rule_set, edit)
+        require_known_names(edited, vocabulary)
+    except (JsonError, RuleSetError) as error:
+        raise EditError(str(error)) from error
+    if len(edited.rules) > MAX_RULES:
+        raise EditError(f"expected at most {MAX_RULES} rules")
+    return edited
+
+
+def _position(edit: dict[str, Any], key: str, length: int, what: str) -> int:
+    value = edit.get(key)
+    if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < length:
+        given = value + 1 if isinstance(value, int) else value
+        raise EditError(f"there is no {what} {given}; expected 1 to {length}")
+    return value
+
+
+def _text(edit: dict[str, Any], key: str) -> str:
+    value = edit.get(key)
+    if not isinstance(value, str) or len(value) > MAX_COMMENT:
+        raise EditError(f"{key} must be a text of at most {MAX_COMMENT} characters")
+    return value
+
+
+def _rule_at(rule_set: RuleSet, edit: dict[str, Any]) -> int:
+    return _position(edit, "rule", len(rule_set.rules), "rule")
+
+
+def _with_rule(rule_set: RuleSet, at: int, rule: Rule) -> RuleSet:
+    return replace(rule_set, rules=(*rule_set.rules[:at], rule, *rule_set.rules[at + 1 :]))
+
+
+def _insert_rule(rule_set: RuleSet, at: int, rule: Rule) -> RuleSet:
+    return replace(rule_set, rules=(*rule_set.rules[:at], rule, *rule_set.rules[at:]))
+
+
+def _set_name(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    return replace(rule_set, name=_text(edit, "name"))
+
+
+def _add_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _position(edit, "at", len(rule_set.rules) + 1, "place for rule")
+    return _insert_rule(rule_set, at, rule_from_json(edit.get("rule", {})))
+
+
+def _remove_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _rule_at(rule_set, edit)
+    return replace(rule_set, rules=rule_set.rules[:at] + rule_set.rules[at + 1 :])
+
+
+def _duplicate_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _rule_at(rule_set, edit)
+    return _insert_rule(rule_set, at + 1, rule_set.rules[at])
+
+
+def _move_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _rule_at(rule_set, edit)
+    to = _position(edit, "to", len(rule_set.rules), "place for rule")
+    without = replace(rule_set, rules=rule_set.rules[:at] + rule_set.rules[at + 1 :])
+    return _insert_rule(without, to, rule_set.rules[at])
+
+
+def _set_enabled(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _rule_at(rule_set, edit)
+    if not isinstance(edit.get("enabled"), bool):
+        raise EditError(f"enabled must be true or false, got {edit.get('enabled')!r}")
+    return _with_rule(rule_set, at, replace(rule_set.rules[at], enabled=edit["enabled"]))
+
+
+def _set_comment(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    at = _rule_at(rule_set, edit)
+    return _with_rule(rule_set, at, replace(rule_set.rules[at], comment=_text(edit, "comment")))
+
+
+def _change_part(
+    rule_set: RuleSet,
+    edit: dict[str, Any],
+    change: Callable[[tuple[Any, ...], Callable[[Any], Any]], tuple[Any, ...]],
+) -> RuleSet:
+    """Change the preconditions, behaviours or actions of one rule."""
+    at = _rule_at(rule_set, edit)
+    part = edit.get("part")
+    if not isinstance(part, str) or part not in _ELEMENT_READERS:
+        raise EditError(f"unknown part {part!r}; expected one of {', '.join(_ELEMENT_READERS)}")
+    elements = change(getattr(rule_set.rules[at], part), _ELEMENT_READERS[part])
+    if len(elements) > MAX_ELEMENTS:
+        raise EditError(f"expected at most {MAX_ELEMENTS} {part} in a rule")
+    changes: dict[str, Any] = {part: elements}
+    return _with_rule(rule_set, at, replace(rule_set.rules[at], **changes))
+
+
+def _add(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    def change(elements: tuple[Any, ...], read: Callable[[Any], Any]) -> tuple[Any, ...]:
+        at = _position(edit, "at", len(elements) + 1, "place")
+        return (*elements[:at], read(edit.get("element")), *elements[at:])
+
+    return _change_part(rule_set, edit, change)
+
+
+def _set(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    def change(elements: tuple[Any, ...], read: Callable[[Any], Any]) -> tuple[Any, ...]:
+        at = _position(edit, "at", len(elements), "element")
+        return (*elements[:at], read(edit.get("element")), *elements[at + 1 :])
+
+    return _change_part(rule_set, edit, change)
+
+
+def _remove(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+    def change(elements: tuple[Any, ...], _read: Callable[[Any], Any]) -> tuple[Any, ...]:
+        at = _position(edit, "at", len(elements), "element")
+        return elements[:at] + elements[at + 1 :]
+
+    return _change_part(rule_set, edit, change)
+
+
+EDITS: dict[str, Callable[[RuleSet, dict[str, Any]], RuleSet]] = {
+    "set_name": _set_name,
+    "add_rule": _add_rule,
+    "remove_rule": _remove_rule,
+    "duplicate_rule": _duplicate_rule,
+    "move_rule": _move_rule,
+    "set_enabled": _set_enabled,
+    "set_comment": _set_comment,
+    "add": _add,
+    "set": _set,
+    "remove": _remove,
+}

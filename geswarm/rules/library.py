@@ -1,0 +1,84 @@
+"""Where rule sets are found: presets, files and standard input; and how they are saved."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from geswarm.rules.check import Finding, Place, RuleSetError, unknown_name
+from geswarm.rules.model import RuleSet
+from geswarm.rules.text import format_text, parse_text
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
+from geswarm.rules.yaml_form import format_yaml, parse_yaml
+
+_PRESETS = Path(__file__).parent / "presets"
+_LOOKS_LIKE_YAML = re.compile(r"^\s*(schema|name|comment|origin|rules)\s*:", re.MULTILINE)
+
+FORMATS: dict[str, Callable[[RuleSet], str]] = {"yaml": format_yaml, "text": format_text}
+
+
+def preset_names() -> list[str]:
+    """Names of the rule sets that come with GESwarm."""
+    return sorted(path.stem for path in _PRESETS.glob("*.yaml"))
+
+
+def load_preset(name: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
+    """One of `preset_names()`.
+
+    Raises:
+        RuleSetError: There is no such preset.
+    """
+    if name not in preset_names():
+        raise RuleSetError([Finding(Place(), unknown_name("preset", name, preset_names()))])
+    path = _PRESETS / f"{name}.yaml"
+    return parse_yaml(path.read_text(encoding="utf-8"), str(path), vocabulary)
+
+
+def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
+    """Load what a user names: a preset, a YAML or text file, or `-` for standard input.
+
+    Raises:
+        RuleSetError: It is not to be found or not a rule set; every reason is listed.
+    """
+    if reference in preset_names():
+        return load_preset(reference, vocabulary)
+    if reference == "-":
+        return read_rule_set(sys.stdin.read(), "<stdin>", vocabulary)
+    path = Path(reference)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        reason = f"not a text file: {error.reason} at byte {error.start}"
+        raise RuleSetError([Finding(Place(reference), reason)]) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        hint = f"neither a file ({reason}) nor a preset ({', '.join(preset_names())})"
+        raise RuleSetError([Finding(Place(reference), hint)]) from error
+    return read_rule_set(text, reference, vocabulary)
+
+
+def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -> RuleSet:
+    """Read YAML or the rule language, whichever the text is.
+
+    Raises:
+        RuleSetError: With every problem, each with file, line, rule and element.
+    """
+    is_yaml = source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text)
+    return (parse_yaml if is_yaml else parse_text)(text, source, vocabulary)
+
+
+def save_rule_set(rule_set: RuleSet, path: str | Path) -> None:
+    """Write a file, as YAML if its name ends so, else in the rule language.
+
+    The file is replaced as a whole, so that a failure leaves the old one as it was.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    path = Path(path)
+    form = format_yaml if path.suffix in (".yaml", ".yml") else format_text
+    draft = path.with_name(f".{path.name}.part")
+    draft.write_text(form(rule_set), encoding="utf-8")
+    draft.replace(path)

@@ -1,0 +1,1 @@
+"""Rule sets that come with GESwarm, as YAML files."""

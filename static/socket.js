@@ -1,0 +1,54 @@
+/** The connection to Python: JSON text messages, reconnecting by itself. */
+
+const FIRST_DELAY = 250;
+const LONGEST_DELAY = 3000;
+
+/** @returns {string} Address of the socket, beside this page. */
+export function socketAddress() {
+  const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+  return `${scheme}//${location.host}/rules/socket`;
+}
+
+export class Socket {
+  #socket = null;
+  #delay = FIRST_DELAY;
+
+  /**
+   * @param {string} address
+   * @param {{opened: () => void, closed: () => void, message: (message: object) => void}} handlers
+   */
+  constructor(address, handlers) {
+    this.address = address;
+    this.handlers = handlers;
+    this.#connect();
+  }
+
+  /** True while messages can be sent. */
+  get open() {
+    return this.#socket?.readyState === WebSocket.OPEN;
+  }
+
+  /**
+   * @param {object} message
+   * @returns {boolean} False if there is no connection; the message is then not kept.
+   */
+  send(message) {
+    if (this.open) this.#socket.send(JSON.stringify(message));
+    return this.open;
+  }
+
+  #connect() {
+    const socket = new WebSocket(this.address);
+    this.#socket = socket;
+    socket.addEventListener("open", () => {
+      this.#delay = FIRST_DELAY;
+      this.handlers.opened();
+    });
+    socket.addEventListener("message", (event) => this.handlers.message(JSON.parse(event.data)));
+    socket.addEventListener("close", () => {
+      this.handlers.closed();
+      setTimeout(() => this.#connect(), this.#delay);
+      this.#delay = Math.min(LONGEST_DELAY, this.#delay * 1.6);
+    });
+  }
+}
