@@ -1,0 +1,1 @@
+"""The dashboard and the headless evolution behind `geswarm-ui`."""

@@ -167,4 +167,4 @@ def parse_message(raw: str | bytes) -> Message:
 
 
 def _error(text: str) -> Message:
-    return {"type": "error", "message": text}
+    return {"type": "notice", "level": "error", "text": text}

@@ -1,17 +1,18 @@
 """What a foot-bot looks like: the robot's parts as low-polygon meshes, one mesh per colour.
 
-Proportions follow the MarXbot foot-bot: two treads in a round base, a ring of LEDs with the gripper in
-front, and the electronics with the camera tower above. x is forward, the origin is on the ground.
+Proportions follow the foot-bot: two treads in a round base, a ring of LEDs with the gripper in
+front, and a tower with the camera above. x is forward, the origin is on the ground.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .shapes import Mesh, box, lathe, line, merged, prism
+from .shapes import Mesh, lathe, merged, prism
 
 RADIUS = 0.085
 """Of the body, m (foot-bot)."""
@@ -22,8 +23,12 @@ HEIGHT = 0.146
 OBJECT_RADIUS = 0.04
 OBJECT_HEIGHT = 0.05
 
-_RING_LOW, _RING_HIGH = 0.062, 0.088
-"""Lower and upper edge of the LED ring, m."""
+_RING_LOW, _RING_HIGH = 0.058, 0.094
+_RING_INSIDE = 0.066
+_TOWER_RADIUS = 0.048
+
+_GLOW_LAYERS = ((2.2, 0.0050), (2.0, 0.0055), (1.8, 0.0060), (1.6, 0.0065), (1.4, 0.0070))
+"""(radius in body radii, z) of faint discs, one above the other: brighter towards the robot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,10 +36,11 @@ class FootBot:
     """The meshes of one robot.
 
     Attributes:
-        body: Dark: base, treads, deck and tower.
-        trim: Light: rims, gripper and the arrow that shows the heading.
-        leds: In the colour of the behaviour: LED ring and beacon.
+        body: Dark: base, treads, deck, and the arrow on the tower.
+        trim: Light: tower, rim, gripper and the pointer in front.
+        leds: The LED ring, in the colour of the behaviour.
         shadow: Flat disc below the robot.
+        glow: Flat disc around it, the light of the LEDs on the ground.
         carried: The object on top of the robot.
     """
 
@@ -42,6 +48,7 @@ class FootBot:
     trim: Mesh
     leds: Mesh
     shadow: Mesh
+    glow: Mesh
     carried: Mesh
 
 
@@ -51,7 +58,8 @@ def footbot() -> FootBot:
         body=_body(),
         trim=_trim(),
         leds=_leds(),
-        shadow=lathe(((1.35 * RADIUS, 0.0), (0.0, 0.0)), 20),
+        shadow=lathe(((1.15 * RADIUS, 0.0078), (0.0, 0.0078)), 20),
+        glow=merged([lathe(((r * RADIUS, z), (0.0, z)), 24) for r, z in _GLOW_LAYERS]),
         carried=puck().moved(z=HEIGHT),
     )
 
@@ -63,55 +71,50 @@ def puck() -> Mesh:
 
 
 def _body() -> Mesh:
-    base = lathe(
-        ((0.0, 0.014), (0.070, 0.014), (0.078, 0.030), (0.078, _RING_LOW), (0.0, _RING_LOW)), 20
-    )
-    treads = [_tread(0.058), _tread(-0.058)]
-    deck = lathe(((0.070, _RING_HIGH - 0.004), (0.0, _RING_HIGH - 0.004)), 20)
-    tower = lathe(
-        ((0.050, _RING_HIGH - 0.004), (0.050, 0.112), (0.042, 0.118), (0.042, 0.132), (0.0, 0.132)),
-        16,
-    )
-    return merged((base, *treads, deck, tower))
+    base = lathe(((0.0, 0.014), (0.068, 0.014), (0.078, 0.030), (0.078, _RING_LOW)), 20)
+    deck = lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 20)
+    arrow = prism(((-0.014, 0.0), (-0.030, -0.030), (0.042, 0.0), (-0.030, 0.030)), 0.140, HEIGHT)
+    return merged((base, _tread(0.056), _tread(-0.056), deck, arrow))
 
 
 def _tread(y: float) -> Mesh:
     """One track with its wheels: a long box with slanted ends, standing on the ground."""
-    side = ((-0.045, 0.0), (0.045, 0.0), (0.062, 0.022), (0.045, 0.044), (-0.045, 0.044))
-    upright = prism((*side, (-0.062, 0.022)), -0.011, 0.011)
+    side = ((-0.040, 0.0), (0.040, 0.0), (0.055, 0.022), (0.040, 0.044), (-0.040, 0.044))
+    upright = prism((*side, (-0.055, 0.022)), -0.011, 0.011)
     x, z, across = upright.vertices.T
-    vertices = np.column_stack((x, y - across, z)).astype(np.float32)
-    return Mesh(vertices, upright.faces)
+    return Mesh(np.column_stack((x, y - across, z)), upright.faces)
 
 
 def _trim() -> Mesh:
-    rims = [
-        lathe(((RADIUS - 0.012, z), (RADIUS, z), (RADIUS, z + 0.006), (RADIUS - 0.012, z + 0.006)), 24)
-        for z in (_RING_LOW - 0.006, _RING_HIGH)
-    ]
+    rim = lathe(((0.078, 0.050), (RADIUS, 0.050), (RADIUS, _RING_LOW)), 24)
+    r = _TOWER_RADIUS
+    tower = lathe(
+        ((r, 0.084), (r, 0.112), (r - 0.008, 0.120), (r - 0.008, 0.134), (0.0, 0.140)), 16
+    )
+    pointer = prism(((0.050, -0.026), (0.100, 0.0), (0.050, 0.026)), 0.088, 0.100)
     claws = [
-        prism(((0.080, y - 0.006), (0.104, y - 0.004), (0.104, y + 0.004), (0.080, y + 0.006)), 0.064, 0.084)
-        for y in (-0.020, 0.020)
+        prism(((0.080, y - 0.006), (0.108, y - 0.003), (0.108, y + 0.003), (0.080, y + 0.006)), *z)
+        for y in (-0.024, 0.024)
+        for z in ((0.040, 0.070),)
     ]
-    palm = box((0.076, 0.086), (-0.030, 0.030), (0.060, _RING_HIGH + 0.006))
-    pointer = prism(((0.052, -0.024), (0.082, 0.0), (0.052, 0.024)), 0.090, 0.098)
-    arrow = prism(((-0.026, -0.026), (0.040, 0.0), (-0.026, 0.026), (-0.014, 0.0)), 0.132, 0.138)
-    return merged((*rims, *claws, palm, pointer, arrow))
+    return merged((rim, tower, pointer, *claws))
 
 
 def _leds() -> Mesh:
-    ring = lathe(
+    inside, outside = _RING_INSIDE, RADIUS
+    return lathe(
         (
-            (RADIUS - 0.003, _RING_LOW),
-            (RADIUS - 0.001, (_RING_LOW + _RING_HIGH) / 2),
-            (RADIUS - 0.003, _RING_HIGH),
+            (outside, _RING_LOW),
+            (outside, _RING_HIGH - 0.008),
+            (outside - 0.006, _RING_HIGH),
+            (inside, _RING_HIGH),
+            (inside, 0.084),
         ),
         24,
     )
-    return ring
 
 
-def yaw_quaternions(theta: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]:
+def yaw_quaternions(theta: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float32]:
     """Rotations about z as quaternions (w, x, y, z), shape (n, 4), of headings in radians, (n,)."""
     quaternions = np.zeros((len(theta), 4), dtype=np.float32)
     quaternions[:, 0] = np.cos(theta / 2)

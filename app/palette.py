@@ -14,20 +14,28 @@ BEHAVIOURS: tuple[Colour, ...] = (
     (140, 86, 200),
     (120, 120, 120),
 )
-"""LED colour of each behaviour code, told apart with any of the usual colour-vision deficiencies."""
+"""LED colour of each behaviour code, told apart by the colour-blind too."""
 
-OBJECT: Colour = (232, 48, 142)
+OBJECT: Colour = (236, 40, 160)
 LIGHT: Colour = (255, 214, 92)
 
-NEST: Colour = (184, 190, 214)
-SOURCE: Colour = (222, 202, 180)
-FLOOR: Colour = (226, 226, 222)
+NEST: Colour = (186, 196, 226)
+SOURCE: Colour = (230, 212, 184)
+FLOOR: Colour = (232, 233, 234)
 """Ground zones: pale, so that robots and objects stand out."""
 
 
 def behaviour_colour(code: int) -> Colour:
     """LED colour of a behaviour code; codes beyond the palette begin it again."""
     return BEHAVIOURS[code % len(BEHAVIOURS)]
+
+
+def linear(colour: Colour) -> Colour:
+    """The colour as linear light, which is what viser's batches take (its meshes take sRGB)."""
+    r, g, b = (
+        round(255 * (c / 3294.6 if c <= 10 else ((c / 255 + 0.055) / 1.055) ** 2.4)) for c in colour
+    )
+    return r, g, b
 
 
 def css(colour: Colour) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -53,7 +54,7 @@ def lathe(profile: Sequence[Point], sides: int) -> Mesh:
     circle = np.stack((np.cos(angles), np.sin(angles)), axis=1)
     here, after = np.arange(sides), np.roll(np.arange(sides), -1)
     bands = []
-    for (r0, z0), (r1, z1) in zip(profile, profile[1:], strict=False):
+    for (r0, z0), (r1, z1) in pairwise(profile):
         lower = np.column_stack((r0 * circle, np.full(sides, z0)))
         upper = np.column_stack((r1 * circle, np.full(sides, z1)))
         rising = np.stack((here, after, sides + after), axis=1)
@@ -95,8 +96,11 @@ def line(points: Sequence[Point], width: float) -> Mesh:
     """A flat line at z = 0 with round ends and bends, seen from above."""
     dot = lathe(((width / 2, 0.0), (0.0, 0.0)), 12)
     parts = [dot.moved(*point) for point in points]
-    for a, b in zip(np.asarray(points), np.asarray(points[1:]), strict=False):
-        along = (b - a) / np.linalg.norm(b - a)
+    for a, b in pairwise(np.asarray(points)):
+        length = np.linalg.norm(b - a)
+        if length < 1e-6:
+            continue
+        along = (b - a) / length
         side = np.array((along[1], -along[0])) * width / 2
         corners = np.column_stack((np.stack((a + side, b + side, b - side, a - side)), np.zeros(4)))
         parts.append(_mesh(corners, np.array([(0, 1, 2), (0, 2, 3)])))

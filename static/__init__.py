@@ -1,0 +1,1 @@
+"""The rule table page, served by the dashboard."""

@@ -68,7 +68,8 @@ export function keepingFocus(change) {
   rendering = true;
   try {
     change();
-    if (active?.isConnected && active !== document.activeElement) active.focus();
+    const lost = document.activeElement === document.body;
+    if (lost && active?.isConnected) active.focus();
   } finally {
     rendering = false;
   }

@@ -19,7 +19,8 @@ export function draftField(input, { tidy, commit, problem = () => null, changed 
     const draft = tidy(input.value) !== stored;
     const reason = draft ? problem(input.value) : null;
     input.toggleAttribute("data-draft", draft);
-    input.toggleAttribute("aria-invalid", reason !== null);
+    if (reason) input.setAttribute("aria-invalid", "true");
+    else input.removeAttribute("aria-invalid");
     input.title = reason ?? input.dataset.hint ?? "";
     changed();
   }
@@ -44,6 +45,7 @@ export function draftField(input, { tidy, commit, problem = () => null, changed 
 
   input.addEventListener("input", refresh);
   input.addEventListener("blur", () => isRendering() || tryCommit());
+  input.addEventListener("connectionlost", () => (sent = null));
   input.addEventListener("resend", () => input !== document.activeElement && tryCommit());
   input.addEventListener("keydown", (event) => {
     if (event.isComposing) return;
@@ -71,6 +73,11 @@ export function draftField(input, { tidy, commit, problem = () => null, changed 
     commit: tryCommit,
     revert,
   };
+}
+
+/** Tell every field with unsaved text about the connection: `connectionlost` or `resend`. */
+export function tellDrafts(event) {
+  for (const input of document.querySelectorAll("[data-draft]")) input.dispatchEvent(new Event(event));
 }
 
 /** A text area that is as high as its text, without measuring: CSS sizes it by the wrapper's copy. */

@@ -1,14 +1,13 @@
 """Context-free grammars in Backus-Naur form (O'Neill & Ryan 2001), read from `.bnf` files.
 
 The subset that GEVA and PonyGE2 share: `<name> ::= a | b`, terminals quoted with " or ' or bare,
-`#` comments, alternatives continued on following lines, `""` for the empty alternative. A terminal of
-several words is a sequence of words: the language is whitespace-insensitive.
+`#` comments, alternatives continued on following lines, `""` for the empty alternative. A terminal
+of several words is a sequence of words: the language is whitespace-insensitive.
 """
 
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -114,50 +113,167 @@ def geswarm_grammar(vocabulary: Mapping[str, Sequence[str]]) -> Grammar:
     return Grammar.parse(text, source="geswarm.bnf", vocabulary=vocabulary)
 
 
+_NAME = r"<[A-Za-z_][\w.:-]*>"
 _TOKEN = re.compile(
-    r"""(?P<space>\s+ | \#[^\n]*)
-      | (?P<define>(?m:^)[^\S\n]*<(?P<defined>[\w.:-]+)>\s*::=)
-      | (?P<nonterminal><(?P<used>[\w.:-]+)>)
+    rf"""(?P<space>\s+ | \#[^\n]*)
+      | (?P<define>{_NAME}\s*::=)
+      | (?P<name>(?!<GECodonValue){_NAME})
       | (?P<bar>\|)
-      | (?P<quoted>"(?P<double>[^"\n]*)"|'(?P<single>[^'\n]*)')
-      | (?P<broken>["'][^\n]* | ::= | <GECodonValue[^\n]* | \\.?)
-      | (?P<word>(?:(?!<[\w.:-]+>|<GECodonValue|::=)[^\s|"'\#\\])+)""",
+      | (?P<quoted>"[^"\n]*" | '[^'\n]*')
+      | (?P<broken>["'][^\n]* | ::= | <GECodonValue[^\n]* | \\)
+      | (?P<word>(?:(?!{_NAME}|<GECodonValue|::=)[^\s|"'\#\\])+)""",
     re.VERBOSE,
 )
-
-_BROKEN = {
-    '"': "a quoted terminal must end on its line, expected a closing \"",
-    "'": "a quoted terminal must end on its line, expected a closing '",
-    ":": "unexpected ::=, expected it only after a <name> at the beginning of a line",
-    "<": "GECodonValue is not supported, expected <name> with its alternatives written out",
-    "\\": "unexpected backslash, expected it only inside quotes",
+_WHY_BROKEN = {
+    '"': 'expected a closing " on the same line',
+    "'": "expected a closing ' on the same line",
+    ":": "unexpected ::=, expected it only after a <name> that begins a line",
+    "<": "GECodonValue is not supported, expected the alternatives written out",
+    "\\": "unexpected backslash outside quotes, expected quoted or plain words",
 }
 
 
 class _Reader:
-    """Collects rules and findings, (line, message), so that all errors are reported at once."""
+    """Collects rules and findings (line, message), so that all errors are reported at once."""
 
     def __init__(self, source: str) -> None:
         self.source = source
         self.rules: dict[str, list[Alternative]] = {}
-        self.lines: dict[str, int] = {}
-        self.uses: dict[str, int] = {}
+        self.lines: dict[str, int] = {}  # where each rule is defined
+        self.uses: dict[str, int] = {}  # where each non-terminal is first used
         self.findings: list[tuple[int, str]] = []
 
     def read(self, text: str) -> None:
-        """Read all rules of a file; what a duplicate rule says is read and ignored."""
-        bodies: list[list[tuple[int, list[Symbol] | None]]] = []
-        line = 1
+        """Read all rules of a file."""
+        body: list[Alternative] | None = None
+        symbols: list[Symbol] | None = None  # of the present alternative; None: nothing yet
+        line = at = 1
         for match in _TOKEN.finditer(text):
-            at = line + (match["define"] or "").rstrip().count("\n") * 0
-            line += match.group().count("\n")
-            if match["space"] is not None:
-                continue
-            if match["define"] is not None:
-                self._define(match["defined"], at)
-            elif match["broken"] is not None:
-                self.findings.append((at, _BROKEN[match.group()[0]]))
-            elif not self.rules:
-                self.findings.append((at, f"expected <name> ::= first, got {match.group()!r}"))
+            kind, token, at = match.lastgroup, match.group(), line
+            line += token.count("\n")
+            if kind == "define":
+                self._close(body, symbols, at)
+                before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
+                body, symbols = self._define(token[1 : token.index(">")], before, at), None
+            elif kind == "broken":
+                self.findings.append((at, f"{_WHY_BROKEN[token[0]]}, got {token.strip()!r}"))
+                symbols = symbols or []
+            elif kind == "bar" and body is not None:
+                self._close(body, symbols, at)
+                symbols = None
+            elif kind != "space" and body is None:
+                self.findings.append((at, f"expected <name> ::= to begin a rule, got {token!r}"))
                 return
-        del bodies
+            elif kind != "space":
+                symbols = symbols or []
+                symbols += self._symbols(kind, token, at)
+        self._close(body, symbols, at)
+        if not self.rules and not self.findings:
+            self.findings.append((1, "there is no rule, expected <name> ::= a | b"))
+
+    def _define(self, name: str, before: str, line: int) -> list[Alternative]:
+        if before.strip():
+            self.findings.append((line, f"<{name}> ::= must begin a line, got it after {before!r}"))
+        if name in self.rules:
+            message = f"<{name}> is already defined in line {self.lines[name]}"
+            self.findings.append((line, message))
+            return []
+        self.lines[name] = line
+        return self.rules.setdefault(name, [])
+
+    def _close(
+        self, body: list[Alternative] | None, symbols: list[Symbol] | None, line: int
+    ) -> None:
+        """End the present alternative."""
+        if body is not None:
+            if symbols is None:
+                self.findings.append(
+                    (line, 'expected an alternative, got nothing; write "" for it')
+                )
+            body.append(tuple(symbols or ()))
+
+    def _symbols(self, kind: str | None, token: str, line: int) -> list[Symbol]:
+        if kind == "name":
+            self.uses.setdefault(token[1:-1], line)
+            return [NonTerminal(token[1:-1])]
+        return [*(token[1:-1] if kind == "quoted" else token).split()]
+
+    def fill(self, vocabulary: Mapping[str, Sequence[str]]) -> None:
+        """Define the non-terminals that the file leaves open."""
+        for name, words in vocabulary.items():
+            if name in self.rules:
+                message = f"<{name}> is defined here, expected the vocabulary not to give it too"
+                self.findings.append((self.lines[name], message))
+            elif name not in self.uses:
+                self.findings.append((1, f"the vocabulary gives <{name}>, which no rule uses"))
+            elif not words:
+                message = f"the vocabulary of <{name}> is empty, expected at least one word"
+                self.findings.append((self.uses[name], message))
+            else:
+                self.lines[name] = self.uses[name]
+            self.rules.setdefault(name, [tuple(word.split()) for word in words])
+
+    def check(self) -> None:
+        """Find what keeps the grammar from deriving sentences."""
+        for name, line in self.uses.items():
+            if name not in self.rules:
+                message = f"<{name}> is not defined, expected <{name}> ::= or a vocabulary for it"
+                self.findings.append((line, message))
+        if self.findings:
+            return
+        ending = self._terminating()
+        for name in self.rules:
+            if name not in ending:
+                message = f"<{name}> never ends, expected an alternative without recursion"
+                self.findings.append((self.lines[name], message))
+        if not self.findings:
+            self._check_forced()
+
+    def _terminating(self) -> set[str]:
+        """The non-terminals that can derive a sentence."""
+        ending: set[str] = set()
+        grown = True
+        while grown:
+            grown = False
+            for name, body in self.rules.items():
+                if name not in ending and any(_names(one) <= ending for one in body):
+                    ending.add(name)
+                    grown = True
+        return ending
+
+    def _check_forced(self) -> None:
+        """Bound what expands without a choice: <a> ::= <b> <b>, <b> ::= <c> <c> ... doubles."""
+        sizes: dict[str, int] = {name: 1 for name, body in self.rules.items() if len(body) > 1}
+        while len(sizes) < len(self.rules):  # single alternatives that terminate have no cycle
+            for name, (only, *_) in self.rules.items():
+                if name not in sizes and _names(only) <= sizes.keys():
+                    sizes[name] = sum(_size(symbol, sizes) for symbol in only)
+        for name, body in self.rules.items():
+            largest = max(sum(_size(symbol, sizes) for symbol in one) for one in body)
+            if largest > MAX_FORCED:
+                message = (
+                    f"<{name}> expands to {largest} symbols without a choice, "
+                    f"expected at most {MAX_FORCED}"
+                )
+                self.findings.append((self.lines[name], message))
+
+    def unreachable(self) -> Iterator[str]:
+        """A warning for each rule that the start symbol never leads to."""
+        reached: set[str] = set()
+        waiting = [next(iter(self.rules))]
+        while waiting:
+            name = waiting.pop()
+            if name not in reached:
+                reached.add(name)
+                waiting += [used for one in self.rules[name] for used in _names(one)]
+        for name, line in self.lines.items():
+            if name not in reached:
+                yield f"{self.source}:{line}: <{name}> cannot be reached from the first rule"
+
+
+def _names(alternative: Alternative) -> set[str]:
+    return {symbol.name for symbol in alternative if isinstance(symbol, NonTerminal)}
+
+
+def _size(symbol: Symbol, sizes: Mapping[str, int]) -> int:
+    return sizes[symbol.name] if isinstance(symbol, NonTerminal) else 1

@@ -17,6 +17,7 @@ from geswarm.rules.control_table import ControlTable, Indexing
 from geswarm.rules.edits import EditError, apply_edit
 from geswarm.rules.library import (
     FORMATS,
+    RuleSetNotFoundError,
     load_preset,
     load_rule_set,
     preset_names,
@@ -52,6 +53,7 @@ __all__ = [
     "Rule",
     "RuleSet",
     "RuleSetError",
+    "RuleSetNotFoundError",
     "StateChange",
     "Vocabulary",
     "apply_edit",

@@ -19,6 +19,10 @@ _LOOKS_LIKE_YAML = re.compile(r"^\s*(schema|name|comment|origin|rules)\s*:", re.
 FORMATS: dict[str, Callable[[RuleSet], str]] = {"yaml": format_yaml, "text": format_text}
 
 
+class RuleSetNotFoundError(RuleSetError):
+    """There is no preset and no readable file of that name."""
+
+
 def preset_names() -> list[str]:
     """Names of the rule sets that come with GESwarm."""
     return sorted(path.stem for path in _PRESETS.glob("*.yaml"))
@@ -40,7 +44,8 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
     """Load what a user names: a preset, a YAML or text file, or `-` for standard input.
 
     Raises:
-        RuleSetError: It is not to be found or not a rule set; every reason is listed.
+        RuleSetNotFoundError: There is neither a preset nor a readable file of that name.
+        RuleSetError: It is not a rule set; every reason is listed.
     """
     if reference in preset_names():
         return load_preset(reference, vocabulary)
@@ -55,7 +60,7 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         hint = f"neither a file ({reason}) nor a preset ({', '.join(preset_names())})"
-        raise RuleSetError([Finding(Place(reference), hint)]) from error
+        raise RuleSetNotFoundError([Finding(Place(reference), hint)]) from error
     return read_rule_set(text, reference, vocabulary)
 
 

@@ -1,4 +1,4 @@
-"""The foot-bot as ARGoS models it (paper, section 3.1.1): the constants that no scenario changes."""
+"""The foot-bot (paper, section 3.1.1) as ARGoS models it: what no scenario changes."""
 
 RADIUS = 0.085
 """Radius of the body (m)."""

@@ -1,1 +1,1 @@
-"""The control step of the foraging model, compiled: sense, decide, act on objects, move, collide."""
+"""The model's control step, compiled: sense, decide, act on objects, move, collide."""

@@ -2,102 +2,127 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from numba import njit
 
-XX
+from geswarm.sim.kernels.draws import FIRST_ACTION, OBJECT_X, OBJECT_Y, OUTCOME, ZONE_MISS, draw
+from geswarm.sim.kernels.jit import inlined
+from geswarm.sim.kernels.placement import place_object
+from geswarm.sim.kernels.state import (
+    BEHAVIOURS,
+    COLLECTED,
+    DROP_OBJECT,
+    HAS_OBJECT,
+    LOST,
+    ON_NEST,
+    ON_SOURCE,
+    PICKED,
+    RANDOM_WALK,
+    STATES,
+    WANT_OBJECT,
+    Physics,
+)
 
 
-@njit
-def sense(physics: Physics, swarm: Swarm, i: int, step: int) -> int:
+@inlined
+def sense(physics: Physics, robot: Any, step: int) -> None:
     """Percept bits: the zones from the robot's centre, unless missed; the gripper exactly."""
-    percepts = HAS_OBJECT if swarm.carried[i] else 0
-    if draw(swarm.key[i], step, ZONE_MISS) >= physics.zone_miss:
-        if swarm.y[i] < physics.nest_edge:
+    percepts = HAS_OBJECT if robot.carried else 0
+    if draw(robot.key, step, ZONE_MISS) >= physics.zone_miss:
+        if robot.y < physics.nest_edge:
             percepts |= ON_NEST
-        if swarm.y[i] > physics.source_edge:
+        if robot.y > physics.source_edge:
             percepts |= ON_SOURCE
-    swarm.percepts[i] = percepts
-    return percepts
+    robot.percepts = percepts
 
 
-@njit
+@inlined
 def decide_by_table(
-    upto: np.ndarray, outcomes: np.ndarray, swarm: Swarm, i: int, step: int, percepts: int
+    upto: np.ndarray, outcomes: np.ndarray, table: int, robot: Any, step: int
 ) -> bool:
     """Draw the step's outcome from the control table; True if a random walk starts afresh.
 
     Args:
-        upto: Cumulative probabilities, shape (situations, outcomes), likeliest outcome first.
+        upto: Cumulative probabilities, shape (tables, situations, outcomes), likeliest outcome
+            first.
         outcomes: The outcomes in that order, same shape.
-        swarm: Updated in place.
-        i: Robot.
+        table: Which table.
+        robot: Updated in place.
         step: Control step.
-        percepts: Percept bits.
     """
-    situation = (percepts * BEHAVIOURS + swarm.behaviour[i]) * STATES + swarm.states[i]
-    u = draw(swarm.key[i], step, OUTCOME)
+    situation = (robot.percepts * BEHAVIOURS + robot.behaviour) * STATES + robot.states
+    u = draw(robot.key, step, OUTCOME)
     k = 0
-    while u >= upto[situation, k]:
+    while u >= upto[table, situation, k]:
         k += 1
-    outcome = outcomes[situation, k]
-    swarm.behaviour[i] = outcome // (2 * STATES)
-    swarm.states[i] = (outcome // 2) % STATES
-    return outcome % 2 == 1
+    outcome = outcomes[table, situation, k]
+    robot.behaviour = outcome // (2 * STATES)
+    robot.states = (outcome // 2) % STATES
+    return bool(outcome % 2 == 1)
 
 
-@njit
-def decide_by_rules(
-    rules: Rules, firing: Firing, swarm: Swarm, i: int, step: int, percepts: int
-) -> bool:
-    """Interpret the rules in order, each action drawn on its own; True if a random walk starts afresh."""
-    behaviour = np.int64(swarm.behaviour[i])
-    states = np.int64(swarm.states[i])
+@inlined
+def decide_by_rules(rules: Any, actions: Any, robot: Any, step: int) -> bool:
+    """Interpret the rules in order; True if a random walk starts afresh."""
+    behaviour = np.int64(robot.behaviour)
+    states = np.int64(robot.states)
     restart = False
-    for r in range(len(rules.enabled)):
-        sensed = (percepts & rules.sensed[r]) == rules.expected[r]
-        if not (rules.enabled[r] and sensed and (rules.behaviours[r] >> behaviour) & 1):
+    for r in range(len(rules)):
+        rule = rules[r]
+        sensed = (robot.percepts & rule.sensed) == rule.expected
+        if not (rule.enabled and sensed and (rule.behaviours >> behaviour) & 1):
             continue
         fired = False
-        for a in range(rules.first_action[r], rules.first_action[r + 1]):
-            if draw(swarm.key[i], step, ACTION + a) >= rules.p[a]:
+        for a in range(rule.first_action, rule.end_action):
+            action = actions[a]
+            if draw(robot.key, step, FIRST_ACTION + a) >= action.p:
                 continue
             fired = True
-            firing.per_action[a] += 1
-            states = (states & ~rules.clears[a]) | rules.sets[a]
-            if rules.target[a] >= 0 and rules.target[a] != behaviour:
-                behaviour = rules.target[a]
+            action.fired += 1
+            states = (states & ~action.clears) | action.sets
+            if action.target >= 0 and action.target != behaviour:
+                behaviour = action.target
                 restart = behaviour == RANDOM_WALK
         if fired:
-            firing.last_rule[i] = r
-            firing.per_rule[r] += 1
-    swarm.behaviour[i] = behaviour
-    swarm.states[i] = states
+            robot.last_rule = r
+            rule.fired += 1
+    robot.behaviour = behaviour
+    robot.states = states
     return restart
 
 
-@njit
-def act_on_objects(physics: Physics, swarm: Swarm, i: int, step: int) -> None:
+@inlined
+def act_on_objects(
+    physics: Physics, objects: np.ndarray, tally: np.ndarray, robot: Any, step: int
+) -> None:
     """Drop, then pick up; DROP_OBJECT is false again afterwards."""
-    if swarm.states[i] & DROP_OBJECT:
-        swarm.states[i] &= WANT_OBJECT
-        if swarm.carried[i]:
-            swarm.carried[i] = False
-            swarm.tally[COLLECTED if swarm.y[i] < physics.nest_edge else LOST] += 1
-    if swarm.carried[i] or not swarm.states[i] & WANT_OBJECT:
+    if robot.states & DROP_OBJECT:
+        robot.states &= WANT_OBJECT
+        if robot.carried:
+            robot.carried = False
+            tally[COLLECTED if robot.y < physics.nest_edge else LOST] += 1
+    if robot.carried or not robot.states & WANT_OBJECT:
         return
-    if swarm.y[i] < physics.source_edge - physics.grip_reach:
+    if robot.y < physics.source_edge - physics.grip_reach:
         return  # objects lie in the source only
+    nearest = _nearest_object(objects, robot.x, robot.y, physics.grip_reach)
+    if nearest >= 0:
+        robot.carried = True
+        tally[PICKED] += 1
+        u = draw(robot.key, step, OBJECT_X)
+        place_object(physics, objects, nearest, u, draw(robot.key, step, OBJECT_Y))
+
+
+@inlined
+def _nearest_object(objects: np.ndarray, x: float, y: float, reach: float) -> int:
+    """The nearest object within reach, or -1."""
     nearest = -1
-    nearest_d2 = physics.grip_reach * physics.grip_reach
-    for o in range(len(swarm.object_x)):
-        dx = swarm.object_x[o] - swarm.x[i]
-        dy = swarm.object_y[o] - swarm.y[i]
+    nearest_d2 = reach * reach
+    for o in range(len(objects)):
+        dx = objects[o, 0] - x
+        dy = objects[o, 1] - y
         d2 = dx * dx + dy * dy
         if d2 <= nearest_d2:
             nearest, nearest_d2 = o, d2
-    if nearest >= 0:
-        swarm.carried[i] = True
-        swarm.tally[PICKED] += 1
-        u = draw(swarm.key[i], step, OBJECT_X)
-        place_object(physics, swarm, nearest, u, draw(swarm.key[i], step, OBJECT_Y))
+    return nearest

@@ -3,74 +3,88 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
-from numba import njit
-
-XX
+from geswarm.sim.kernels.draws import (
+    START_HEADING,
+    START_OBJECT_X,
+    START_OBJECT_Y,
+    START_WALK,
+    START_WALK_TIME,
+    START_X,
+    START_Y,
+    draw,
+    make_key,
+)
+from geswarm.sim.kernels.jit import inlined
+from geswarm.sim.kernels.state import RANDOM_WALK, WANT_OBJECT, Physics
 
 PLACEMENT_ATTEMPTS = 200
 """How often a robot that would overlap another one is placed anew."""
 
 
-@njit
-def start(physics: Physics, swarm: Swarm, seed: int, individual: int, replicate: int) -> None:
+@inlined
+def start(
+    physics: Physics, robots: Any, objects: Any, seed: int, individual: int, replicate: int
+) -> None:
     """Robots at random poses in the nest, walking at random; objects at random in the source."""
-    for i in range(len(swarm.x) + 1):
-        make_key(swarm.key[i], seed, individual, replicate, i)
-    for i in range(len(swarm.x)):
-        _start_robot(physics, swarm, i)
-    for o in range(len(swarm.object_x)):
-        u = draw(swarm.key[-1], o, START_OBJECT_X)
-        place_object(physics, swarm, o, u, draw(swarm.key[-1], o, START_OBJECT_Y))
-    swarm.tally[:] = 0
+    for i in range(len(robots)):
+        robots[i].key = make_key(seed, individual, replicate, i)
+        _start_robot(physics, robots, i)
+    arena_key = make_key(seed, individual, replicate, len(robots))
+    for o in range(len(objects)):
+        u = draw(arena_key, o, START_OBJECT_X)
+        place_object(physics, objects, o, u, draw(arena_key, o, START_OBJECT_Y))
 
 
-@njit
-def _start_robot(physics: Physics, swarm: Swarm, i: int) -> None:
+@inlined
+def _start_robot(physics: Physics, robots: Any, i: int) -> None:
     """Place robot i clear of the walls and, where that is found, of robots 0..i-1."""
-    key = swarm.key[i]
+    robot = robots[i]
     reach_x = physics.half_width - physics.radius
     south = physics.radius - physics.half_length
     north = min(physics.nest_edge, physics.half_length - physics.radius)
     for attempt in range(PLACEMENT_ATTEMPTS):
-        swarm.x[i] = reach_x * (2.0 * draw(key, attempt, START_X) - 1.0)
-        swarm.y[i] = south + (north - south) * draw(key, attempt, START_Y)
+        robot.x = reach_x * (2.0 * draw(robot.key, attempt, START_X) - 1.0)
+        robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
         clear = True
         for j in range(i):
-            gap = math.hypot(swarm.x[i] - swarm.x[j], swarm.y[i] - swarm.y[j])
+            gap = math.hypot(robot.x - robots[j].x, robot.y - robots[j].y)
             clear = clear and gap >= 2.0 * physics.radius
         if clear:
             break
-    theta = 2.0 * math.pi * draw(key, 0, START_HEADING)
-    swarm.cos[i] = math.cos(theta)
-    swarm.sin[i] = math.sin(theta)
-    swarm.behaviour[i] = RANDOM_WALK
-    swarm.states[i] = WANT_OBJECT
-    swarm.percepts[i] = 0
-    swarm.carried[i] = False
-    u = draw(key, 0, START_WALK)
-    walk(physics, swarm, i, 0, u, draw(key, 0, START_WALK_TIME))
+    theta = 2.0 * math.pi * draw(robot.key, 0, START_HEADING)
+    robot.cos = math.cos(theta)
+    robot.sin = math.sin(theta)
+    robot.behaviour = RANDOM_WALK
+    robot.states = WANT_OBJECT
+    robot.percepts = 0
+    robot.carried = False
+    robot.last_rule = -1
+    restart_walk(physics, robot, 0, START_WALK, START_WALK_TIME)
 
 
-@njit
-def place_object(physics: Physics, swarm: Swarm, o: int, u: float, v: float) -> None:
+@inlined
+def place_object(physics: Physics, objects: Any, o: int, u: float, v: float) -> None:
     """Put object o into the source, away from the walls; u and v uniform in [0, 1)."""
-    reach_x = physics.half_width - physics.object_margin
     north = physics.half_length - physics.object_margin
-    swarm.object_x[o] = reach_x * (2.0 * u - 1.0)
-    swarm.object_y[o] = physics.source_edge + (north - physics.source_edge) * v
+    objects[o, 0] = (physics.half_width - physics.object_margin) * (2.0 * u - 1.0)
+    objects[o, 1] = physics.source_edge + (north - physics.source_edge) * v
 
 
-@njit
-def walk(physics: Physics, swarm: Swarm, i: int, step: int, u: float, v: float) -> None:
-    """Fresh random-walk heading and time to keep it; u and v uniform in [0, 1)."""
-    swarm.walk_x[i] = math.cos(2.0 * math.pi * u)
-    swarm.walk_y[i] = math.sin(2.0 * math.pi * u)
-    seconds = physics.walk_min + (physics.walk_max - physics.walk_min) * v
-    swarm.walk_until[i] = step + seconds / physics.control_step
+@inlined
+def restart_walk(physics: Physics, robot: Any, step: int, heading: int, time: int) -> None:
+    """Fresh random-walk heading, to be kept for a fresh time.
 
-
-@njit
-def restart_walk(physics: Physics, swarm: Swarm, i: int, step: int) -> None:
-    u = draw(swarm.key[i], step, WALK_HEADING)
-    walk(physics, swarm, i, step, u, draw(swarm.key[i], step, WALK_TIME))
+    Args:
+        physics: Scenario in numbers.
+        robot: Updated in place.
+        step: Control step.
+        heading: Purpose of the draw of the heading.
+        time: Purpose of the draw of the time.
+    """
+    angle = 2.0 * math.pi * draw(robot.key, step, heading)
+    robot.walk_x = math.cos(angle)
+    robot.walk_y = math.sin(angle)
+    longer = (physics.walk_max - physics.walk_min) * draw(robot.key, step, time)
+    robot.walk_until = step + (physics.walk_min + longer) / physics.control_step

@@ -1,4 +1,4 @@
-"""What the kernels work on: codes and bits, the scenario in numbers, the state of a swarm."""
+"""What the kernels work on: codes and bits, the scenario in numbers, records."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BEHAVIOURS, STATES = 3, 4
 """Number of behaviours and of combinations of internal states."""
 
 PICKED, COLLECTED, LOST = 0, 1, 2
-"""Positions in `Swarm.tally`."""
+"""Positions in a tally, int64, shape (3,)."""
 
 
 class Physics(NamedTuple):
@@ -42,45 +42,54 @@ class Physics(NamedTuple):
     control_step: float
 
 
-class Swarm(NamedTuple):
-    """State of one simulation; arrays of shape (robots,) unless said otherwise."""
+ROBOT = np.dtype(
+    [
+        ("key", np.uint64),  # of the random numbers
+        ("x", np.float64),
+        ("y", np.float64),
+        ("cos", np.float64),  # of the orientation
+        ("sin", np.float64),
+        ("walk_x", np.float64),  # unit vector of the random walk
+        ("walk_y", np.float64),
+        ("walk_until", np.float64),  # control steps since the start at which it is over
+        ("away_x", np.float64),  # avoidance vector from the other robots, in this step
+        ("away_y", np.float64),
+        (
+            "last_rule",
+            np.int64,
+        ),  # the rule that fired last, -1 before any
+        ("behaviour", np.uint8),
+        ("states", np.uint8),  # internal-state bits
+        ("percepts", np.uint8),  # as perceived in the last step
+        ("carried", np.bool_),
+    ],
+    align=True,
+)
+"""State of a robot."""
 
-    key: np.ndarray  # uint32, shape (robots + 1, 2); the last one is the arena's
-    x: np.ndarray
-    y: np.ndarray
-    cos: np.ndarray  # of the orientation
-    sin: np.ndarray
-    behaviour: np.ndarray  # uint8
-    states: np.ndarray  # uint8, internal-state bits
-    percepts: np.ndarray  # uint8, as perceived in the last step
-    carried: np.ndarray  # bool
-    walk_x: np.ndarray  # unit vector of the random walk
-    walk_y: np.ndarray
-    walk_until: np.ndarray  # time in control steps at which it is over
-    away_x: np.ndarray  # avoidance vector from the other robots, in this step
-    away_y: np.ndarray
-    object_x: np.ndarray  # shape (objects,)
-    object_y: np.ndarray
-    tally: np.ndarray  # int64, shape (3,): picked, collected, lost
+RULE = np.dtype(
+    [
+        ("enabled", np.int64),  # 0 also if its preconditions contradict each other
+        ("sensed", np.int64),  # mask of the percepts that its preconditions name
+        ("expected", np.int64),  # their values
+        ("behaviours", np.int64),  # mask of the behaviours in which it may be active
+        ("first_action", np.int64),
+        ("end_action", np.int64),
+        ("fired", np.int64),  # how often some action of it was drawn, counted by the kernel
+    ]
+)
+"""A rule to be interpreted."""
 
+ACTION = np.dtype(
+    [
+        ("p", np.float64),
+        ("target", np.int64),  # behaviour to change to, -1 for an action on internal states
+        ("clears", np.int64),  # mask of internal-state bits
+        ("sets", np.int64),
+        ("fired", np.int64),  # how often it was drawn, counted by the kernel
+    ]
+)
+"""An action of a rule."""
 
-class Rules(NamedTuple):
-    """Rules for interpretation: arrays of shape (rules,), and of shape (actions,) from `p` on."""
-
-    enabled: np.ndarray  # bool; False also for a rule whose preconditions contradict each other
-    sensed: np.ndarray  # mask of the percepts that the preconditions name
-    expected: np.ndarray  # their values
-    behaviours: np.ndarray  # mask of behaviour codes
-    first_action: np.ndarray  # shape (rules + 1,): where each rule's actions begin
-    p: np.ndarray
-    target: np.ndarray  # behaviour to change to, -1 for an action on internal states
-    clears: np.ndarray  # mask of internal-state bits
-    sets: np.ndarray
-
-
-class Firing(NamedTuple):
-    """Which rules fired: some action of theirs was drawn. int64, updated in place."""
-
-    last_rule: np.ndarray  # shape (robots,), -1 before any
-    per_rule: np.ndarray  # shape (rules,), counts
-    per_action: np.ndarray  # shape (actions,), counts
+# Kernels take arrays of these one by one: numba counts references to arrays that come out of
+# tuples, with atomic operations that cost more than the control step itself.

@@ -1,0 +1,169 @@
+"""The dashboard: one server, one session, one loop that keeps the screen up to date."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import signal
+import sys
+import threading
+import time
+
+import viser
+
+from geswarm.cli import UsageError
+from geswarm.rules import RuleSet, RuleSetError, load_rule_set
+from geswarm.sim import Scenario, ScenarioError, load_scenario
+
+from .arena import Arena
+from .evolution import EvolutionThread
+from .evolution_panel import EvolutionPanel
+from .gate import ServerError, open_server
+from .rule_page import RulePage
+from .session import Session
+from .swarm_panel import SwarmPanel
+
+FRAME_SECONDS = 1 / 30
+_SIMULATION_SHARE = 0.6  # of a frame; the rest is for the display
+_PANEL_SECONDS = 0.1  # numbers need not change faster
+
+_TABLE_WIDTH = 600
+_CONTROLS_WIDTH = 320
+_TABLE = (
+    '<iframe src="/rules/rules.html?theme=light" title="Rule table" '
+    'style="display:block;width:100%;height:calc(100vh - 3.2em);border:0"></iframe>'
+)
+
+logger = logging.getLogger(__name__)
+
+
+class Dashboard:
+    """Everything on the screen, over one session.
+
+    Attributes:
+        server: viser's server, behind the gate.
+        session: What is shown.
+    """
+
+    def __init__(self, session: Session, host: str, port: int) -> None:
+        self.session = session
+        self.rule_page = RulePage(session)
+        self.server = open_server(host, port, self.rule_page.channel, "GESwarm")
+        self.arena = Arena()
+        self.swarm_panel = SwarmPanel(session)
+        self.evolution_panel = EvolutionPanel(session)
+        self._scenario_version = session.scenario_version
+        self._stop = threading.Event()
+        self._build()
+
+    @property
+    def address(self) -> str:
+        """Where to point a browser."""
+        return f"http://{self.server.get_host()}:{self.server.get_port()}"
+
+    def _build(self) -> None:
+        gui = self.server.gui
+        gui.configure_theme(show_logo=False, show_share_button=False, brand_color=(15, 98, 214))
+        self.arena.build(self.server, self.session.scenario)
+        with gui.add_folder("Swarm"):
+            self.swarm_panel.build(gui)
+        with gui.add_folder("Evolution"):
+            self.evolution_panel.build(gui)
+        gui.main_panel.dock_left()
+        gui.main_panel.set_width(_CONTROLS_WIDTH)
+        table = gui.add_panel()
+        with table.add_tab("Rules", viser.Icon.TABLE):
+            gui.add_html(_TABLE)
+        table.dock_right()
+        table.set_width(_TABLE_WIDTH)
+
+    def run(self) -> None:
+        """Show the session until `stop` is called."""
+        last = last_panels = time.perf_counter()
+        while not self._stop.is_set():
+            now = time.perf_counter()
+            try:
+                self._frame(now - last)
+                if now - last_panels >= _PANEL_SECONDS:
+                    last_panels = now
+                    self.swarm_panel.sync()
+                    self.evolution_panel.sync()
+            except Exception:  # one bad frame or command must not end the session
+                logger.exception("a frame failed")
+            last = now
+            self._stop.wait(max(0.0, FRAME_SECONDS - (time.perf_counter() - now)))
+
+    def stop(self) -> None:
+        """End `run`; from any thread."""
+        self._stop.set()
+
+    def close(self) -> None:
+        """Stop the evolution and the server."""
+        self.session.evolution.stop()
+        self.server.stop()
+
+    def _frame(self, elapsed: float) -> None:
+        session = self.session
+        session.frame(elapsed, _SIMULATION_SHARE * FRAME_SECONDS)
+        if session.scenario_version != self._scenario_version:
+            self._scenario_version = session.scenario_version
+            self.arena.rebuild(session.scenario)
+        self.arena.sync(session.view())
+        self.rule_page.sync(elapsed)
+
+
+def run_dashboard(options: argparse.Namespace) -> int:
+    """Serve the dashboard until Ctrl-C."""
+    try:
+        scenario = load_scenario(options.scenario or "paper")
+        rule_set = load_rule_set(options.rules or "evo8")
+    except (ScenarioError, RuleSetError) as error:
+        raise UsageError(str(error)) from error
+    port = 8080 if options.port is None else options.port
+    try:
+        dashboard = open_dashboard(
+            scenario, rule_set, options.host or "127.0.0.1", port, options.workers
+        )
+    except ServerError as error:
+        raise UsageError(str(error)) from error
+    _announce(dashboard, port)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: dashboard.stop())
+    dashboard.session.post(lambda session: session.play())
+    try:
+        dashboard.run()
+    finally:
+        evolution = dashboard.session.evolution
+        if evolution.active:
+            hint = f"geswarm-ui --no-ui --resume {evolution.directory}"
+            print(f"Evolution stopped; it can go on with: {hint}", file=sys.stderr)
+        dashboard.close()
+    return 0
+
+
+def open_dashboard(
+    scenario: Scenario, rule_set: RuleSet, host: str, port: int, workers: int | None = None
+) -> Dashboard:
+    """A dashboard that is served but not yet running.
+
+    Args:
+        scenario: Where the swarm starts.
+        rule_set: What it runs.
+        host: Address to listen on.
+        port: Port to listen on; 0 for any.
+        workers: Threads for evolution; None leaves one core to the arena.
+
+    Raises:
+        ServerError: It cannot listen there.
+    """
+    if workers is None:
+        workers = max(1, (os.cpu_count() or 1) - 1)
+    return Dashboard(Session(scenario, rule_set, EvolutionThread(workers)), host, port)
+
+
+def _announce(dashboard: Dashboard, wanted_port: int) -> None:
+    port = dashboard.server.get_port()
+    if wanted_port not in (0, port):
+        print(f"Port {wanted_port} is busy, using {port} instead.", file=sys.stderr)
+    print(f"GESwarm is at {dashboard.address}  (Ctrl-C ends it)", flush=True)

@@ -1,0 +1,66 @@
+"""The rule set being edited, with its history: every change can be taken back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geswarm.rules import RuleSet, apply_edit
+
+MAX_HISTORY = 1000
+
+
+class RuleDocument:
+    """A rule set with undo and redo.
+
+    Attributes:
+        rule_set: As it stands now.
+        version: Counts the changes; never goes back, not even by undo.
+    """
+
+    def __init__(self, rule_set: RuleSet) -> None:
+        self.rule_set = rule_set
+        self.version = 1
+        self._past: list[RuleSet] = []
+        self._future: list[RuleSet] = []
+
+    @property
+    def can_undo(self) -> bool:
+        """True if there is a change to take back."""
+        return bool(self._past)
+
+    @property
+    def can_redo(self) -> bool:
+        """True if there is a change to make again."""
+        return bool(self._future)
+
+    def edit(self, edit: dict[str, Any]) -> None:
+        """Make one edit (see `geswarm.rules.edits`).
+
+        Raises:
+            EditError: It cannot be made; the document is untouched.
+        """
+        self.replace(apply_edit(self.rule_set, edit))
+
+    def replace(self, rule_set: RuleSet) -> None:
+        """Put another rule set in place; `undo` brings the present one back."""
+        if rule_set == self.rule_set:
+            return
+        self._past = [*self._past[-MAX_HISTORY + 1 :], self.rule_set]
+        self._future = []
+        self._show(rule_set)
+
+    def undo(self) -> None:
+        """Take the last change back, if there is one."""
+        if self._past:
+            self._future.append(self.rule_set)
+            self._show(self._past.pop())
+
+    def redo(self) -> None:
+        """Make the last change taken back again, if there is one."""
+        if self._future:
+            self._past.append(self.rule_set)
+            self._show(self._future.pop())
+
+    def _show(self, rule_set: RuleSet) -> None:
+        self.rule_set = rule_set
+        self.version += 1

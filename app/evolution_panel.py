@@ -1,0 +1,168 @@
+"""The panel that evolves: parameters, start and stop, fitness curves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+import viser
+from viser import uplot
+from viser._gui_handles import GuiProgressBarHandle
+
+from geswarm.experiment import RunConfig
+from geswarm.ge import Settings
+
+from .evolution import REFERENCES, EvolutionThread, Phase
+from .run_directory import new_run_directory
+from .session import Session
+
+_CURVES = (
+    ("best so far", "#0f62d6", 2.5, None),
+    ("best of generation", "#7aa7e8", 1.0, None),
+    ("mean", "#8a8f98", 1.5, None),
+    ("hand-coded", "#c2410c", 1.5, (6.0, 4.0)),
+    ("EVO 8", "#15803d", 1.5, (6.0, 4.0)),
+)
+
+
+@dataclass
+class EvolutionHandles:
+    """Widgets that `sync` updates."""
+
+    status: viser.GuiHtmlHandle
+    progress: GuiProgressBarHandle
+    start: viser.GuiButtonHandle
+    pause: viser.GuiButtonHandle
+    stop: viser.GuiButtonHandle
+    load_best: viser.GuiButtonHandle
+    chart: viser.GuiUplotHandle
+    parameters: viser.GuiFolderHandle
+
+
+class EvolutionPanel:
+    """Shows the background evolution; its buttons post commands."""
+
+    handles: EvolutionHandles
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._shown: tuple[object, ...] = ()
+
+    def build(self, gui: viser.GuiApi) -> None:
+        """Make the widgets in the present container."""
+        status = gui.add_html(status_html(self.session.evolution))
+        progress = gui.add_progress_bar(0.0, visible=False)
+        chart = gui.add_uplot(
+            data=tuple(np.zeros(1) for _ in range(len(_CURVES) + 1)),
+            series=(
+                uplot.Series(label="generation"),
+                *(
+                    uplot.Series(
+                        label=label, stroke=colour, width=width, **({"dash": dash} if dash else {})
+                    )
+                    for label, colour, width, dash in _CURVES
+                ),
+            ),
+            scales={"x": uplot.Scale(time=False)},
+            axes=(uplot.Axis(label="generation"), uplot.Axis(label="objects collected")),
+            aspect=1.35,
+            visible=False,
+        )
+        start = gui.add_button("Start evolution", icon=viser.Icon.DNA_2)
+        pause = gui.add_button("Pause", icon=viser.Icon.PLAYER_PAUSE, visible=False)
+        stop = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, visible=False)
+        load_best = gui.add_button(
+            "Load the best into the arena", icon=viser.Icon.DOWNLOAD, disabled=True
+        )
+        parameters = gui.add_folder("Parameters", expand_by_default=False)
+        with parameters:
+            settings = Settings()
+            generations = gui.add_number("Generations", settings.generations, min=1, step=1)
+            population = gui.add_number("Population", settings.population, min=2, step=1)
+            evaluations = gui.add_number("Runs each", settings.evaluations, min=1, step=1)
+            seed = gui.add_number("Seed", 0, min=0, step=1)
+        self.handles = EvolutionHandles(
+            status, progress, start, pause, stop, load_best, chart, parameters
+        )
+
+        @start.on_click
+        def _(_: object) -> None:
+            settings = Settings(
+                generations=int(generations.value),
+                population=int(population.value),
+                evaluations=int(evaluations.value),
+            )
+            number = int(seed.value)
+            self.session.post(lambda session: begin(session, settings, number))
+
+        @pause.on_click
+        def _(_: object) -> None:
+            self.session.post(lambda session: pause_or_go_on(session.evolution))
+
+        stop.on_click(lambda _: self.session.post(lambda session: session.evolution.stop(0.0)))
+        load_best.on_click(lambda _: self.session.post(lambda session: session.load_best()))
+
+    def sync(self) -> None:
+        """Show the evolution as it is."""
+        evolution, handles = self.session.evolution, self.handles
+        shown = (evolution.phase, len(evolution.history), len(evolution.references))
+        if shown == self._shown:
+            return
+        self._shown = shown
+        handles.status.content = status_html(evolution)
+        handles.start.visible = handles.parameters.visible = not evolution.active
+        handles.pause.visible = handles.stop.visible = evolution.active
+        paused = evolution.phase is Phase.PAUSED
+        handles.pause.label = "Go on" if paused else "Pause"
+        handles.load_best.disabled = evolution.best is None
+        handles.progress.visible = evolution.active
+        if evolution.generations:
+            done = 100.0 * len(evolution.history) / evolution.generations
+            handles.progress.value = done  # type: ignore[misc]  # viser types it read-only
+        if evolution.history and len(evolution.references) == len(REFERENCES):
+            handles.chart.data = curves(evolution)
+            handles.chart.visible = True
+
+
+def begin(session: Session, settings: Settings, seed: int) -> None:
+    """Start evolving in the scenario of the arena, in a new directory below runs/."""
+    config = RunConfig(session.scenario, settings, seed)
+    session.evolution.start(config, new_run_directory(config))
+
+
+def pause_or_go_on(evolution: EvolutionThread) -> None:
+    """The one button for both."""
+    if evolution.phase is Phase.PAUSED:
+        evolution.go_on()
+    else:
+        evolution.pause()
+
+
+def curves(evolution: EvolutionThread) -> tuple[np.ndarray, ...]:
+    """Generations and the five curves over them, in the order of the legend."""
+    history = evolution.history
+    columns = [
+        np.array([getattr(record, name) for record in history], dtype=np.float64)
+        for name in ("generation", "best_so_far", "best", "mean")
+    ]
+    lines = [np.full(len(history), evolution.references[name]) for name in REFERENCES]
+    return (*columns, *lines)
+
+
+def status_html(evolution: EvolutionThread) -> str:
+    """One or two lines about the run, as HTML."""
+    if evolution.phase is Phase.IDLE:
+        text = "Evolves foraging rules in the scenario of the arena, while the swarm goes on."
+    elif evolution.phase is Phase.FAILED:
+        text = f"Evolution failed: {evolution.error}"
+    elif not evolution.history:
+        text = "Running hand-coded and EVO 8 for comparison…"
+    else:
+        record = evolution.history[-1]
+        text = (
+            f"Generation {record.generation} of {evolution.generations}, {evolution.phase.value}: "
+            f"best {record.best_so_far:.1f}, mean {record.mean:.1f}"
+        )
+    where = f" Kept in {evolution.directory}." if evolution.directory else ""
+    return f'<div style="padding:.2em .9em;font-size:.85em">{escape(text + where)}</div>'

@@ -1,0 +1,39 @@
+"""What is written down of a generation."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass, fields
+
+
+@dataclass(frozen=True)
+class GenerationRecord:
+    """One generation in numbers; a line of `history.csv`.
+
+    Attributes:
+        generation: Its number; the initial generation is 1.
+        best_so_far: Highest fitness since the beginning of the run.
+        best: Highest fitness among the individuals bred for this generation; elites, which keep
+            the fitness of their time, are not among them.
+        mean: Mean fitness of the same individuals; invalid ones count as 0.
+        invalid: How many of them are invalid: their mapping did not finish.
+        distinct: Different phenotypes among them.
+        seconds: Wall-clock time; the only field in which two equal runs differ.
+    """
+
+    generation: int
+    best_so_far: float
+    best: float
+    mean: float
+    invalid: int
+    distinct: int
+    seconds: float
+
+    @classmethod
+    def csv_header(cls) -> str:
+        """The field names, without the end of the line."""
+        return ",".join(field.name for field in fields(cls))
+
+    def csv_row(self) -> str:
+        """The values in ten digits, seconds in milliseconds, without the end of the line."""
+        *numbers, seconds = astuple(self)
+        return ",".join([*(format(number, ".10g") for number in numbers), f"{seconds:.3f}"])

@@ -1,0 +1,239 @@
+"""The interactive world: one simulation that can be watched, dragged about and given new rules."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from geswarm.rules.model import RuleSet
+from geswarm.sim import footbot
+from geswarm.sim.compiled import run_world, start_world
+from geswarm.sim.encoding import encode_rules, encode_scenario, room_for
+from geswarm.sim.kernels.state import COLLECTED, LOST, PICKED
+from geswarm.sim.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class WorldState:
+    """What there is to see at one moment; read-only copies, shape (robots,) unless said otherwise.
+
+    Bits and codes are positions in `geswarm.rules.vocabulary.FORAGING`.
+
+    Attributes:
+        x: Eastward positions of the robots' centres (m), float64.
+        y: Northward positions (m), float64.
+        theta: Orientations, counter-clockwise from east (rad), in [-pi, pi], float64.
+        behaviour: Behaviour codes, uint8.
+        internal_states: Internal states as bits, uint8.
+        percepts: Percepts of the last control step as bits, uint8.
+        carried: Whether the robot holds an object, bool.
+        last_rule: Index of the rule that fired last, -1 if none has since the rules were set.
+        objects: Positions of the objects (m), float64, shape (objects, 2).
+        rule_counts: How often each rule has fired since the rules were set, int64, shape (rules,).
+        action_counts: The same for each action of each rule.
+        steps: Control steps since the start.
+        picked: Objects picked up since the start.
+        collected: Objects dropped inside the nest.
+        lost: Objects dropped elsewhere.
+    """
+
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    theta: npt.NDArray[np.float64]
+    behaviour: npt.NDArray[np.uint8]
+    internal_states: npt.NDArray[np.uint8]
+    percepts: npt.NDArray[np.uint8]
+    carried: npt.NDArray[np.bool_]
+    last_rule: npt.NDArray[np.int64]
+    objects: npt.NDArray[np.float64]
+    rule_counts: npt.NDArray[np.int64]
+    action_counts: tuple[tuple[int, ...], ...]
+    steps: int
+    picked: int
+    collected: int
+    lost: int
+
+    @property
+    def time(self) -> float:
+        """Simulated time since the start (s)."""
+        return self.steps * footbot.CONTROL_STEP
+
+
+class World:
+    """One simulation whose robots interpret the rules one by one, so that it knows which fired.
+
+    A rule fires in a control step if it is active and at least one of its actions is drawn. Rule
+    indices are positions in the rule set, counting rules that are switched off. Not thread-safe.
+    """
+
+    def __init__(self, scenario: Scenario, rule_set: RuleSet, seed: int = 0) -> None:
+        """Place robots and objects.
+
+        Raises:
+            RuleSetError: The rule set cannot be run.
+            ValueError: The seed is out of range.
+        """
+        self._scenario = scenario
+        self._physics = encode_scenario(scenario)
+        self._seed = seed
+        self._robots, self._objects = room_for(scenario)
+        self._tally = np.zeros(3, dtype=np.int64)
+        self.set_rules(rule_set)
+        self.reset(seed)
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario."""
+        return self._scenario
+
+    @property
+    def rule_set(self) -> RuleSet:
+        """The rules that the robots run."""
+        return self._rule_set
+
+    @property
+    def seed(self) -> int:
+        """The seed of the present run."""
+        return self._seed
+
+    @property
+    def steps(self) -> int:
+        """Control steps since the start."""
+        return self._steps
+
+    @property
+    def time(self) -> float:
+        """Simulated time since the start (s)."""
+        return self._steps * footbot.CONTROL_STEP
+
+    @property
+    def picked(self) -> int:
+        """Objects picked up since the start."""
+        return int(self._tally[PICKED])
+
+    @property
+    def collected(self) -> int:
+        """Objects dropped inside the nest since the start."""
+        return int(self._tally[COLLECTED])
+
+    @property
+    def lost(self) -> int:
+        """Objects dropped outside the nest since the start."""
+        return int(self._tally[LOST])
+
+    @property
+    def state(self) -> WorldState:
+        """Everything there is to see, as it is now."""
+        robots = self._robots
+        return WorldState(
+            x=_frozen(robots["x"]),
+            y=_frozen(robots["y"]),
+            theta=_frozen(np.arctan2(robots["sin"], robots["cos"])),
+            behaviour=_frozen(robots["behaviour"]),
+            internal_states=_frozen(robots["states"]),
+            percepts=_frozen(robots["percepts"]),
+            carried=_frozen(robots["carried"]),
+            last_rule=_frozen(robots["last_rule"]),
+            objects=_frozen(self._objects),
+            rule_counts=_frozen(self._rules["fired"]),
+            action_counts=tuple(
+                tuple(self._actions["fired"][first:end].tolist())
+                for first, end in self._rules[["first_action", "end_action"]].tolist()
+            ),
+            steps=self.steps,
+            picked=self.picked,
+            collected=self.collected,
+            lost=self.lost,
+        )
+
+    def step(self, n: int = 1) -> None:
+        """Run n control steps of 0.1 s.
+
+        Raises:
+            ValueError: n is negative.
+        """
+        if n < 0:
+            raise ValueError(f"n: expected at least 0, got {n}")
+        run_world(
+            self._physics,
+            self._robots,
+            self._objects,
+            self._tally,
+            self._rules,
+            self._actions,
+            self._steps,
+            n,
+        )
+        self._steps += n
+
+    def set_rules(self, rule_set: RuleSet) -> None:
+        """Give all robots new rules from the next step on; only what has fired is forgotten.
+
+        Raises:
+            RuleSetError: The rule set cannot be run; the world keeps its rules.
+        """
+        self._rules, self._actions = encode_rules(rule_set)
+        self._rule_set = rule_set
+        self._robots["last_rule"] = -1
+
+    def reset(self, seed: int | None = None) -> None:
+        """Start again, with the same seed unless another one is given.
+
+        Raises:
+            ValueError: The seed is out of range.
+        """
+        seed = self._seed if seed is None else seed
+        if not 0 <= seed < 2**63:
+            raise ValueError(f"seed: expected 0 <= seed < 2**63, got {seed}")
+        self._seed = seed
+        self._steps = 0
+        self._tally[:] = 0
+        self._rules["fired"] = 0
+        self._actions["fired"] = 0
+        start_world(self._physics, self._robots, self._objects, seed)
+
+    def move_robot(self, i: int, x: float, y: float) -> None:
+        """Put robot i at (x, y) (m), or at the nearest place inside the walls.
+
+        If that is on top of another robot, both are pushed apart in the next step.
+
+        Raises:
+            IndexError: There is no such robot.
+            ValueError: A coordinate is not finite.
+        """
+        _require_place(i, self._scenario.robots, "robot", x, y)
+        reach_x = self._physics.half_width - self._physics.radius
+        reach_y = self._physics.half_length - self._physics.radius
+        robot = self._robots[i]
+        robot["x"] = min(max(x, -reach_x), reach_x)
+        robot["y"] = min(max(y, -reach_y), reach_y)
+
+    def move_object(self, i: int, x: float, y: float) -> None:
+        """Put object i at (x, y) (m), or at the nearest place where objects may lie in the source.
+
+        Raises:
+            IndexError: There is no such object.
+            ValueError: A coordinate is not finite.
+        """
+        _require_place(i, self._scenario.objects, "object", x, y)
+        reach_x = self._physics.half_width - self._physics.object_margin
+        north = self._physics.half_length - self._physics.object_margin
+        self._objects[i, 0] = min(max(x, -reach_x), reach_x)
+        self._objects[i, 1] = min(max(y, self._physics.source_edge), north)
+
+
+def _frozen(array: np.ndarray[tuple[int, ...], np.dtype[np.generic]]) -> np.ndarray:
+    """A read-only copy."""
+    copy = array.copy()
+    copy.setflags(write=False)
+    return copy
+
+
+def _require_place(i: int, number: int, kind: str, x: float, y: float) -> None:
+    if not 0 <= i < number:
+        raise IndexError(f"expected {kind} 0 to {number - 1}, got {i}")
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise ValueError(f"expected finite coordinates, got ({x}, {y})")

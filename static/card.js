@@ -1,0 +1,240 @@
+/** One rule in the paper's layout: explanation, then preconditions, behaviours and actions. */
+
+import { ActionChip, BehaviourChip, PreconditionChip, actionChoices } from "./chips.js";
+import { h, icon, iconButton, identify, reconcile } from "./dom.js";
+import { makeDraggable } from "./drag.js";
+import { draftField, growing } from "./field.js";
+import { menuButton } from "./menu.js";
+
+const PARTS = [
+  {
+    part: "preconditions",
+    letter: "P",
+    Chip: PreconditionChip,
+    empty: "always",
+    hint: "all must hold",
+  },
+  {
+    part: "behaviours",
+    letter: "B",
+    Chip: BehaviourChip,
+    empty: "any behaviour",
+    hint: "the current one must be among them",
+  },
+  {
+    part: "actions",
+    letter: "A",
+    Chip: ActionChip,
+    empty: "no action yet",
+    hint: "each drawn on its own, in this order",
+  },
+];
+
+/** One row of a rule: label, chips, "+". */
+class PartRow {
+  chips = [];
+
+  constructor(card, { part, letter, Chip, empty, hint }) {
+    Object.assign(this, { card, part, Chip, singular: part.slice(0, -1) });
+    this.subscript = h("sub");
+    this.label = h(
+      "div",
+      { class: "part-label", title: `${part}: ${hint}` },
+      h("i", {}, letter),
+      this.subscript,
+      h("span", { class: "part-word" }, part),
+    );
+    const epsilon = part === "actions" ? [] : [h("i", {}, "ε"), " "];
+    this.empty = h("span", { class: "empty" }, ...epsilon, empty);
+    this.list = h("span", { class: "chips" });
+    this.plus = menuButton({ class: "tool plus" }, () => card.additions(part), icon("add"));
+    this.node = h("div", { class: "part", role: "group" }, this.label);
+    this.node.append(h("div", { class: "part-body" }, this.empty, this.list, this.plus));
+  }
+
+  update(items) {
+    const before = this.chips.length;
+    this.chips = reconcile(this.list, this.chips, items, () => new this.Chip(this.card));
+    const rule = this.card.index + 1;
+    this.subscript.textContent = rule;
+    this.empty.hidden = items.length > 0;
+    this.plus.hidden = this.part !== "actions" && this.card.absent(this.part).length === 0;
+    this.plus.title = `Add ${this.singular}`;
+    identify(this.node, `rule-${rule}-${this.part}`, `Rule ${rule}, ${this.part}`);
+    identify(this.plus, `rule-${rule}-add-${this.singular}`, `Add ${this.singular} to rule ${rule}`);
+    if (this.awaited && items.length > before) this.chips.at(-1).p?.focus();
+    if (items.length > before) this.awaited = false;
+  }
+}
+
+export class RuleCard {
+  index = -1;
+
+  /** @param {import("./session.js").Session} session */
+  constructor(session) {
+    this.session = session;
+    this.rows = Object.fromEntries(PARTS.map((part) => [part.part, new PartRow(this, part)]));
+    this.node = h("article", { class: "rule" });
+    this.node.append(this.#gutter(), this.#heading(), this.#tools());
+    this.node.append(...Object.values(this.rows).map((row) => row.node));
+    this.findings = h("ul", { class: "findings" });
+    this.node.append(this.findings);
+  }
+
+  /**
+   * @param {(rule: number) => ?object} make Makes the edit, given where this rule is by then.
+   * @returns {boolean} False if there is no connection.
+   */
+  edit(make) {
+    return this.session.edit(() => (this.index < 0 ? null : make(this.index)));
+  }
+
+  move(by) {
+    const last = this.session.state.rule_set.rules.length - 1;
+    this.edit((rule) => {
+      const to = rule + by;
+      return to < 0 || to > last ? null : { do: "move_rule", rule, to };
+    });
+  }
+
+  duplicate() {
+    this.edit((rule) => ({ do: "duplicate_rule", rule }));
+  }
+
+  remove() {
+    this.edit((rule) => ({ do: "remove_rule", rule }));
+  }
+
+  /** Vocabulary entries of a part that this rule does not mention yet. */
+  absent(part) {
+    const present = new Set(this.rule[part].map((element) => element.name ?? element));
+    return this.session.vocabulary[part].filter((entry) => !present.has(entry.name));
+  }
+
+  /** @returns {import("./protocol.js").Finding[]} */
+  findingsAt(element) {
+    return this.session.state.findings.filter(
+      (finding) => finding.rule === this.index + 1 && (!element || finding.element === element),
+    );
+  }
+
+  /** What the "+" of a part offers. */
+  additions(part) {
+    const { vocabulary } = this.session;
+    if (part === "preconditions") {
+      return this.absent(part).flatMap(({ name, holds, fails }) =>
+        [true, false].map((value) => ({
+          id: `${name}-${value}`,
+          label: `${name} == ${value}`,
+          detail: value ? holds : fails,
+          choose: () => this.#add(part, { name, holds: value }),
+        })),
+      );
+    }
+    if (part === "behaviours") {
+      return this.absent(part).map(({ name, doing, colour }) => ({
+        id: name,
+        label: name,
+        detail: doing,
+        colour,
+        choose: () => this.#add(part, name),
+      }));
+    }
+    return actionChoices(vocabulary, (element) => this.#add(part, { p: 1, ...element }));
+  }
+
+  update(rule, index) {
+    this.rule = rule;
+    this.index = index;
+    const number = index + 1;
+    const last = this.session.state.rule_set.rules.length - 1;
+    identify(this.node, `rule-${number}`, `Rule ${number}`);
+    this.node.classList.toggle("off", !rule.enabled);
+    this.number.textContent = number;
+    identify(this.handle, `rule-${number}-handle`);
+    identify(this.rate, `rule-${number}-rate`);
+    identify(this.toggle, `rule-${number}-enabled`, `Rule ${number} is switched on`);
+    this.toggle.setAttribute("aria-checked", String(rule.enabled));
+    identify(this.comment, `rule-${number}-comment`, `Explanation of rule ${number}`);
+    this.draft.update(rule.comment);
+    for (const [name, button] of Object.entries(this.tools)) {
+      identify(button, `rule-${number}-${name}`, `${button.title} ${number}`);
+    }
+    this.tools.up.disabled = index === 0;
+    this.tools.down.disabled = index === last;
+    for (const [part, row] of Object.entries(this.rows)) row.update(rule[part]);
+    this.#showFindings();
+  }
+
+  /** @param {number} heat Times that the rule has just fired, per robot. */
+  showFiring(heat) {
+    this.node.classList.toggle("fired", heat > 0);
+    if (heat > 0) this.node.style.setProperty("--heat", (0.35 + 0.65 * Math.min(1, heat)).toFixed(2));
+  }
+
+  /** @param {?number} rate Times per robot and simulated minute; null while unknown. */
+  showRate(rate) {
+    const text = rate === null || !this.rule.enabled ? "" : `${rate.toFixed(rate < 9.95 ? 1 : 0)}/min`;
+    if (this.rate.textContent !== text) this.rate.textContent = text;
+  }
+
+  #add(part, element) {
+    this.rows[part].awaited = true;
+    this.edit((rule) => ({ do: "add", rule, part, at: this.rule[part].length, element }));
+  }
+
+  #gutter() {
+    this.number = h("sub");
+    this.rate = h("span", { class: "rate", title: "fired per robot and simulated minute" });
+    this.toggle = h(
+      "button",
+      {
+        type: "button",
+        class: "switch",
+        role: "switch",
+        title: "Switch this rule on or off",
+        onclick: () =>
+          this.edit((rule) => ({ do: "set_enabled", rule, enabled: !this.rule.enabled })),
+      },
+      h("span", { class: "knob" }),
+    );
+    this.handle = h("div", { class: "badge", title: "Drag to move this rule" }, h("i", {}, "R"), this.number);
+    makeDraggable(this, this.handle);
+    return h("div", { class: "gutter" }, this.handle, this.rate, this.toggle);
+  }
+
+  #heading() {
+    this.comment = h("textarea", {
+      rows: 1,
+      cols: 1,
+      class: "comment",
+      placeholder: "Say what this rule is for",
+      spellcheck: "false",
+    });
+    const wrapper = growing(this.comment);
+    this.draft = draftField(this.comment, {
+      tidy: (text) => text.trim(),
+      commit: (comment) => this.edit((rule) => ({ do: "set_comment", rule, comment })),
+      changed: wrapper.fit,
+    });
+    return h("div", { class: "heading" }, wrapper.node);
+  }
+
+  #tools() {
+    this.tools = {
+      up: iconButton("up", "Move up rule", () => this.move(-1)),
+      down: iconButton("down", "Move down rule", () => this.move(1)),
+      duplicate: iconButton("duplicate", "Duplicate rule", () => this.duplicate()),
+      delete: iconButton("trash", "Delete rule", () => this.remove()),
+    };
+    return h("div", { class: "tools" }, ...Object.values(this.tools));
+  }
+
+  #showFindings() {
+    const lines = this.findingsAt().map(({ element, message, severity }) =>
+      h("li", { class: severity }, icon("warning"), element ? `${element}: ${message}` : message),
+    );
+    this.findings.replaceChildren(...lines);
+    this.findings.hidden = lines.length === 0;
+  }
+}

@@ -1,0 +1,135 @@
+/** Name and origin of the rule set, undo and redo, load and save. */
+
+import { h, icon, iconButton, identify } from "./dom.js";
+import { draftField, growing } from "./field.js";
+import { menuButton } from "./menu.js";
+
+const LARGEST_FILE = 100_000; // bytes; the server cuts off longer messages
+
+/**
+ * @param {import("./protocol.js").Origin} origin
+ * @param {import("./protocol.js").Vocabulary} vocabulary
+ * @returns {string} Where the rules came from, in words.
+ */
+export function describeOrigin({ preset, run, generation, fitness }, vocabulary) {
+  const title = vocabulary.presets.find((known) => known.name === preset)?.title ?? preset;
+  return [
+    title && `preset ${title}`,
+    run && `run ${run}`,
+    generation !== null && `generation ${generation}`,
+    fitness !== null && `fitness ${Number(fitness.toPrecision(4))}`,
+  ]
+    .filter(Boolean)
+    .join(" · ");
+}
+
+export class Header {
+  /**
+   * @param {Element} root
+   * @param {import("./session.js").Session} session
+   * @param {import("./notices.js").Notices} notices
+   * @param {Element} live The live figures, shown under the title.
+   */
+  constructor(root, session, notices, live) {
+    this.session = session;
+    this.notices = notices;
+    this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => session.command({ type: "undo" }));
+    this.redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => session.command({ type: "redo" }));
+    identify(this.undo, "undo", "Undo");
+    identify(this.redo, "redo", "Redo");
+    this.origin = h("div", { class: "origin", "data-testid": "origin" });
+    const title = h("div", { class: "title" }, this.#name(), this.origin);
+    const actions = h("div", { class: "actions" }, this.undo, this.redo, ...this.#files());
+    root.append(h("div", { class: "title-bar" }, title, actions), live);
+  }
+
+  /** @param {import("./protocol.js").RulesMessage} message */
+  update({ rule_set: { name, origin }, can_undo, can_redo }) {
+    this.draft.update(name);
+    const words = describeOrigin(origin, this.session.vocabulary);
+    this.origin.textContent = words;
+    this.origin.hidden = !words;
+    this.undo.disabled = !can_undo;
+    this.redo.disabled = !can_redo;
+    document.title = `${name || "Rules"} - GESwarm`;
+  }
+
+  #name() {
+    const input = h("textarea", {
+      rows: 1,
+      cols: 1,
+      class: "name",
+      "aria-label": "Name of the rule set",
+      "data-testid": "name",
+      placeholder: "Name",
+      spellcheck: "false",
+    });
+    const wrapper = growing(input);
+    this.draft = draftField(input, {
+      tidy: (text) => text.replace(/\s+/g, " ").trim(),
+      commit: (name) => this.session.edit(() => ({ do: "set_name", name })),
+      changed: wrapper.fit,
+    });
+    return wrapper.node;
+  }
+
+  #files() {
+    const file = h("input", {
+      type: "file",
+      accept: ".yaml,.yml,.txt",
+      hidden: true,
+      "aria-label": "Rule set file",
+      "data-testid": "file",
+      onchange: () => this.#open(file),
+    });
+    const load = menuButton(
+      { class: "button", "data-testid": "load", "aria-label": "Load a rule set" },
+      () => this.#sources(file),
+      icon("open"),
+      "Load",
+    );
+    const save = h(
+      "button",
+      {
+        type: "button",
+        class: "button",
+        "data-testid": "save",
+        "aria-label": "Save the rule set as a YAML file",
+        onclick: () => this.session.command({ type: "save", format: "yaml" }),
+      },
+      icon("save"),
+      "Save",
+    );
+    return [load, save, file];
+  }
+
+  #sources(file) {
+    const presets = (this.session.vocabulary?.presets ?? []).map(({ name, title }) => ({
+      id: name,
+      label: title,
+      detail: "preset",
+      choose: () => this.session.command({ type: "load_preset", name }),
+    }));
+    const open = { id: "file", label: "Open file…", detail: "YAML or text", divided: true };
+    return [...presets, { ...open, choose: () => file.click() }];
+  }
+
+  async #open(input) {
+    const [file] = input.files;
+    input.value = "";
+    if (!file) return;
+    if (file.size > LARGEST_FILE) {
+      this.notices.show("error", `${file.name}: ${file.size} bytes are too many for a rule set.`);
+      return;
+    }
+    const text = await file.text();
+    this.session.command({ type: "load_text", name: file.name, text });
+  }
+}
+
+/** Hand a file to the browser's downloads. */
+export function download({ name, text }) {
+  const address = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+  h("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}

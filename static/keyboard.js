@@ -1,0 +1,40 @@
+/** Keys that work anywhere on the page. */
+
+const isText = (node) => node.matches?.("textarea, input[type=text]");
+
+/**
+ * @param {import("./session.js").Session} session
+ * @param {import("./table.js").RuleTable} table
+ */
+export function listenToKeys(session, table) {
+  document.addEventListener("keydown", (event) => {
+    const act = wholePage(event, session) ?? withinRule(event, table);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+}
+
+/** @returns {?() => void} What the key does, or null. */
+function wholePage(event, session) {
+  if (!event.ctrlKey && !event.metaKey) return null;
+  const typing = isText(event.target) && event.target.hasAttribute("data-draft");
+  const key = event.key.toLowerCase();
+  if (key === "s") return () => session.command({ type: "save", format: "yaml" });
+  if (typing) return null;
+  if (key === "z") return () => session.command({ type: event.shiftKey ? "redo" : "undo" });
+  if (key === "y") return () => session.command({ type: "redo" });
+  return null;
+}
+
+function withinRule(event, table) {
+  const card = table.cardOf(event.target);
+  if (!card) return null;
+  if (event.altKey && event.key === "ArrowUp") return () => card.move(-1);
+  if (event.altKey && event.key === "ArrowDown") return () => card.move(1);
+  if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d") return () => card.duplicate();
+  if (event.key !== "Delete" || isText(event.target)) return null;
+  const chips = Object.values(card.rows).flatMap((row) => row.chips);
+  const chip = chips.find((candidate) => candidate.node.contains(event.target));
+  return chip ? () => chip.remove() : null;
+}

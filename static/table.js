@@ -1,0 +1,68 @@
+/** The rules in their order. */
+
+import { RuleCard } from "./card.js";
+import { h, icon, keepingFocus, reconcile } from "./dom.js";
+
+const GLIDE = { duration: 180, easing: "ease-out" };
+const EMPTY_RULE = { comment: "", enabled: true, preconditions: [], behaviours: [], actions: [] };
+
+export class RuleTable {
+  /** @type {RuleCard[]} */
+  cards = [];
+  #asked = false;
+
+  /**
+   * @param {Element} root
+   * @param {import("./session.js").Session} session
+   */
+  constructor(root, session) {
+    this.session = session;
+    this.list = h("div", { class: "rules", "data-testid": "rules" });
+    this.general = h("ul", { class: "findings general" });
+    const add = h(
+      "button",
+      { type: "button", class: "add-rule", "data-testid": "add-rule", onclick: () => this.#addRule() },
+      icon("add"),
+      "add rule",
+    );
+    root.append(this.general, this.list, add);
+  }
+
+  /** @param {import("./protocol.js").RulesMessage} message */
+  update({ rule_set: { rules }, findings }) {
+    const before = new Map(this.cards.map((card) => [card, card.node.offsetTop]));
+    keepingFocus(() => {
+      this.cards = reconcile(this.list, this.cards, rules, () => new RuleCard(this.session));
+      const general = findings.filter((finding) => !finding.rule);
+      this.general.replaceChildren(
+        ...general.map(({ message, severity }) => h("li", { class: severity }, icon("warning"), message)),
+      );
+      this.general.hidden = general.length === 0;
+    });
+    if (before.size) this.#glide(before);
+    if (this.#asked && this.cards.length > before.size) {
+      this.#asked = false;
+      this.cards.at(-1).comment.focus();
+    }
+  }
+
+  /** The card that a node belongs to, if any. */
+  cardOf(node) {
+    return this.cards.find((card) => card.node.contains(node));
+  }
+
+  #addRule() {
+    this.#asked = true;
+    this.session.edit(() => ({ do: "add_rule", at: this.cards.length, rule: EMPTY_RULE }));
+  }
+
+  /** Let the cards glide to their new places, so that the eye can follow. */
+  #glide(before) {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+    for (const card of this.cards) {
+      const moved = before.get(card) - card.node.offsetTop;
+      if (!before.has(card)) card.node.animate([{ opacity: 0 }, {}], GLIDE);
+      else if (moved) card.node.animate([{ transform: `translateY(${moved}px)` }, {}], GLIDE);
+    }
+  }
+}

@@ -1,0 +1,71 @@
+"""Browser fixtures, shared by all browser tests; and a server behind the gate."""
+
+import os
+import shutil
+
+import pytest
+from geswarm.app.channel import Channel
+from geswarm.app.gate import open_server
+
+CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome")
+CHROMIUM_FLAGS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+VIEWPORT = {"width": 1200, "height": 800}
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """Path of a Chromium; skips without one, or fails if GESWARM_REQUIRE_BROWSER=1."""
+    path = os.environ.get("GESWARM_CHROMIUM") or next(
+        filter(None, map(shutil.which, CHROMIUM_NAMES)), None
+    )
+    if path is not None and shutil.which(path):
+        return path
+    reason = f"no Chromium: {path or ', '.join(CHROMIUM_NAMES)} not found; set GESWARM_CHROMIUM"
+    if os.environ.get("GESWARM_REQUIRE_BROWSER") == "1":
+        pytest.fail(reason, pytrace=False)
+    pytest.skip(reason)
+
+
+# Not longer than a module: while Playwright runs, asyncio.run cannot be used in this process.
+@pytest.fixture(scope="module")
+def browser(chromium):
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(CHROMIUM_FLAGS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(browser):
+    """An empty page; the test fails if a script on it does."""
+    context = browser.new_context(viewport=VIEWPORT)
+    page = context.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
+    context.close()
+    assert not errors
+
+
+@pytest.fixture
+def channel():
+    return Channel(on_message=lambda client, message: None)
+
+
+@pytest.fixture
+def server(channel):
+    """viser behind the gate on a free port of the loopback address."""
+    server = open_server("127.0.0.1", 0, channel, "test")
+    yield server
+    server.stop()

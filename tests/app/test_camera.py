@@ -1,0 +1,41 @@
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from geswarm.app.camera import FIELD_OF_VIEW, framing
+from geswarm.app.scenery import outer_points
+from hypothesis import given
+from hypothesis import strategies as st
+
+
+def picture(points, pose, aspect):
+    """Places in the picture, shape (n, 2), -1 to 1 to the right and upwards."""
+    forward = pose.look_at - pose.position
+    forward = forward / np.linalg.norm(forward)
+    right = np.cross(forward, (0, 0, 1))
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    seen = points - pose.position
+    depth = seen @ forward
+    assert (depth > 0).all()
+    half = math.tan(FIELD_OF_VIEW / 2)
+    return np.column_stack((seen @ right / depth / half / aspect, seen @ up / depth / half))
+
+
+@given(st.floats(1, 25), st.floats(1, 25), st.floats(0.4, 3))
+def test_every_arena_fills_the_picture(width, length, aspect):
+    shape = SimpleNamespace(width=width, length=length, nest=1.0, source=1.0, light=100.0)
+    points = outer_points(shape)
+    places = picture(points, framing(points, aspect), aspect)
+    assert np.abs(places).max() <= 1
+    assert np.abs(places).max() > 0.9
+
+
+def test_north_is_up():
+    points = outer_points(SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0))
+    south, north, east = np.array([(0, -1, 0), (0, 1, 0), (1, 0, 0)], dtype=float)
+    places = picture(np.stack((south, north, east)), framing(points), 1.35)
+    assert places[1, 1] > places[0, 1]
+    assert places[2, 0] > 0
+    assert places[:2, 0] == pytest.approx(0)

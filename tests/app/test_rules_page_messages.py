@@ -1,0 +1,171 @@
+"""The rule table page in a real browser: files, lost connections, findings and live figures."""
+
+import pytest
+
+from geswarm.rules import Rule, RuleSet, load_preset, parse_yaml
+from tests.app.rules_browser import choose, expect, page_fixture, sees_edit, server_fixture
+from tests.app.rules_server import RulesServer
+
+__all__ = ["page_fixture", "server_fixture"]
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+
+def test_a_preset_and_a_file_are_loaded(page, server):
+    choose(page, "load", "hand-coded")
+    expect(page.get_by_test_id("name")).to_have_value("Hand-coded")
+    text = "schema: 1\nname: Mine\nrules:\n- comment: go\n  do:\n  - p = 1, PHOTOTAXIS\n"
+    file = {"name": "mine.yaml", "mimeType": "text/yaml", "buffer": text.encode()}
+    page.get_by_test_id("file").set_input_files(file)
+    expect(page.get_by_test_id("name")).to_have_value("Mine")
+    expect(page.get_by_test_id("rule-2")).to_have_count(0)
+
+
+def test_a_failed_load_shows_every_reason_until_dismissed(page, server):
+    text = "schema: 1\nrules:\n- do:\n  - p = 1, PHOTOTAXI\n- do:\n  - p = 1, <img src=x>\n"
+    file = {"name": "bad.yaml", "mimeType": "text/yaml", "buffer": text.encode()}
+    page.get_by_test_id("file").set_input_files(file)
+    notice = page.get_by_test_id("notice-error")
+    expect(notice).to_contain_text("PHOTOTAXIS?")
+    expect(notice).to_contain_text("<img src=x>")
+    expect(page.get_by_test_id("name")).to_have_value("EVO 8")
+    page.get_by_test_id("dismiss").click()
+    expect(notice).to_have_count(0)
+
+
+def test_a_file_that_is_too_long_is_refused_on_the_spot(page, server):
+    file = {"name": "big.yaml", "mimeType": "text/yaml", "buffer": b"#" * 100_001}
+    page.get_by_test_id("file").set_input_files(file)
+    expect(page.get_by_test_id("notice-error")).to_contain_text("big.yaml")
+    assert server.received == []
+
+
+def test_saving_downloads_the_rules(page, server):
+    with page.expect_download() as event:
+        page.get_by_test_id("save").click()
+    assert event.value.suggested_filename == "evo8.yaml"
+    with open(event.value.path(), encoding="utf-8") as file:  # noqa: PTH123
+        assert parse_yaml(file.read()) == load_preset("evo8")
+
+
+def test_typing_is_not_lost_when_messages_arrive(page, server):
+    comment = page.get_by_test_id("rule-2-comment")
+    comment.fill("half a sen")
+    comment.press("ArrowLeft")
+    server.change({"do": "set_enabled", "rule": 1, "enabled": False})
+    server.change({"do": "remove_rule", "rule": 0})
+    server.live(1.0, [1, 2, 3])
+    expect(page.get_by_test_id("rule-3")).to_be_visible()
+    expect(page.get_by_test_id("rule-4")).to_have_count(0)
+    typed = page.get_by_test_id("rule-1-comment")
+    expect(typed).to_be_focused()
+    page.keyboard.insert_text("te")
+    expect(typed).to_have_value("half a seten")
+    typed.press("Enter")
+    sees_edit(page, server, {"do": "set_comment", "rule": 0, "comment": "half a seten"})
+
+
+def test_typing_survives_a_lost_connection_and_is_sent_afterwards(page, server):
+    field = page.get_by_test_id("rule-1-action-1-p")
+    comment = page.get_by_test_id("rule-2-comment")
+    field.fill("0.7")
+    server.stop()
+    expect(page.get_by_test_id("offline")).to_be_visible()
+    comment.fill("typed in the dark")
+    comment.press("Enter")
+    page.get_by_test_id("rule-1-delete").click()
+    with RulesServer(server.port) as again:
+        expect(page.get_by_test_id("offline")).to_be_hidden(timeout=15_000)
+        sees_edit(page, again, {"do": "set_comment", "rule": 1, "comment": "typed in the dark"})
+        assert again.document.rule_set.rules[0].actions[0].p == 0.7
+        assert len(again.document.rule_set.rules) == 4
+        page.close()
+
+
+def test_an_edit_whose_answer_was_lost_is_sent_again(page, server):
+    server.answering = False
+    comment = page.get_by_test_id("rule-2-comment")
+    comment.fill("sent but not answered")
+    comment.press("Enter")
+    edit = {"do": "set_comment", "rule": 1, "comment": "sent but not answered"}
+    sees_edit(page, server, edit)
+    server.stop()
+    with RulesServer(server.port) as again:
+        sees_edit(page, again, edit)
+        expect(comment).to_have_value("sent but not answered")
+        page.close()
+
+
+def test_markup_is_shown_as_text(page, server):
+    nasty = "<script>document.title='x'</script><b onclick=1>bold</b>"
+    comment = page.get_by_test_id("rule-1-comment")
+    comment.fill(nasty)
+    comment.press("Enter")
+    expect(page.get_by_test_id("undo")).to_be_enabled()
+    server.show(RuleSet((Rule(comment=nasty, behaviours=(nasty,)),), name=nasty))
+    expect(page.get_by_test_id("name")).to_have_value(nasty)
+    expect(comment).to_have_value(nasty)
+    expect(page.get_by_test_id("rule-1-behaviour-1")).to_have_text(nasty)
+    server.push({"type": "notice", "level": "error", "text": nasty})
+    expect(page.get_by_test_id("notice-error")).to_have_text(nasty)
+    assert page.locator("b[onclick], body script").count() == 0
+
+
+def test_where_evolved_rules_come_from_is_shown(page, server):
+    message = server.rules()
+    origin = {"preset": None, "run": "runs/7", "generation": 30, "fitness": 143.333}
+    message["rule_set"] = {**message["rule_set"], "origin": origin}
+    server.push(message)
+    expect(page.get_by_test_id("origin")).to_have_text("run runs/7 · generation 30 · fitness 143.3")
+
+
+def test_findings_are_shown_at_their_element(page, server):
+    element = {"name": "ON_NEST", "holds": False}
+    edit = {"do": "add", "rule": 1, "part": "preconditions", "at": 1, "element": element}
+    server.change(edit)
+    expect(page.get_by_test_id("rule-2")).to_contain_text("cannot be both true and false")
+    expect(page.get_by_test_id("rule-2-precondition-2")).to_have_class(
+        "chip precondition has-warning"
+    )
+    server.change({"do": "remove", "rule": 1, "part": "preconditions", "at": 1})
+    expect(page.get_by_test_id("rule-2")).not_to_contain_text("cannot be both")
+    server.show(RuleSet())
+    expect(page.get_by_text("robots only walk")).to_be_visible()
+
+
+def test_rules_that_fire_glow_and_rates_are_per_robot_and_minute(page, server):
+    server.live(0.0, [0, 0, 0, 0])
+    server.live(15.0, [0, 4, 40, 600])
+    expect(page.locator(".fired")).to_have_count(3)
+    expect(page.get_by_test_id("rule-2-rate")).to_have_text("4.0/min")
+    expect(page.get_by_test_id("rule-4-rate")).to_have_text("600/min")
+    expect(page.get_by_test_id("rule-1-rate")).to_have_text("0.0/min")
+    expect(page.get_by_test_id("rule-1")).to_have_class("rule")
+    expect(page.get_by_test_id("live-PHOTOTAXIS")).to_have_text("2")
+    expect(page.get_by_test_id("time")).to_have_text("15.0 s")
+    server.live(15.1, [0, 4, 41, 604])
+    expect(page.get_by_test_id("rule-2")).to_have_class("rule")
+    # Then the swarm is paused: no more messages.
+    expect(page.get_by_test_id("rule-4")).to_have_class("rule")
+    expect(page.get_by_test_id("rule-4-rate")).to_have_text("600/min")
+
+
+def test_rates_forget_what_lies_before_a_reset_and_over_a_minute_back(page, server):
+    server.live(100.0, [1000, 0, 0, 0])
+    for second in range(101, 201):
+        server.live(float(second), [1000 + 4 * (second - 100), 0, 0, 0])
+    expect(page.get_by_test_id("rule-1-rate")).to_have_text("60/min")
+    server.live(0.0, [0, 0, 0, 0])
+    expect(page.get_by_test_id("rule-1-rate")).to_have_text("")
+    server.live(30.0, [2, 0, 0, 0])
+    expect(page.get_by_test_id("rule-1-rate")).to_have_text("1.0/min")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_theme_can_be_forced(browser, server, theme):
+    other = {"light": "dark", "dark": "light"}[theme]
+    page = browser.new_page(color_scheme=other)
+    page.goto(f"{server.address}?theme={theme}")
+    expect(page.get_by_test_id("rule-1")).to_be_visible()
+    red = page.evaluate("getComputedStyle(document.body).backgroundColor.match(/\\d+/)[0]")
+    assert (int(red) > 128) == (theme == "light")
+    page.close()

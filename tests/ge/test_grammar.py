@@ -1,0 +1,137 @@
+import pytest
+
+from geswarm.ge.grammar import Grammar, GrammarError, NonTerminal, geswarm_grammar
+
+
+def findings(text, vocabulary=None):
+    with pytest.raises(GrammarError) as caught:
+        Grammar.parse(text, "toy.bnf", vocabulary)
+    return list(caught.value.findings)
+
+
+def test_reads_the_common_subset():
+    grammar = Grammar.parse(
+        """
+        # a comment with <names> ::= and | in it
+        <expr> ::= <expr> <op> <expr>   # the rest of a line
+                 | "(" <expr> ')'
+                 | x | 1.0 |
+                   "two words" | ""
+        <op> ::= +|'|'|"#"
+        """
+    )
+    expr, op = NonTerminal("expr"), NonTerminal("op")
+    assert grammar.start == "expr"
+    assert grammar.rules == {
+        "expr": ((expr, op, expr), ("(", expr, ")"), ("x",), ("1.0",), ("two", "words"), ()),
+        "op": (("+",), ("|",), ("#",)),
+    }
+    assert grammar.warnings == ()
+
+
+def test_symbols_need_no_space_between_them():
+    grammar = Grammar.parse("<e> ::= sin(<e>)+<e>|x<y\n")
+    e = NonTerminal("e")
+    assert grammar.rules["e"] == (("sin(", e, ")+", e), ("x<y",))
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ("", 1, "there is no rule"),
+        ("# nothing\n\n", 1, "there is no rule"),
+        ("# one\nhello <a> ::= b", 2, "expected <name> ::= to begin a rule, got 'hello'"),
+        ("<a> ::= 'b\n | c", 1, "expected a closing '"),
+        ("<a> ::= b\n\n<c> ::= d\n<a> ::= e\n", 4, "<a> is already defined in line 1"),
+        ("<a> ::= b\n  | <c> <c>", 2, "<c> is not defined"),
+        ("<a> ::= b |\n<c> ::= d", 2, "expected an alternative, got nothing"),
+        ("<a> ::= b | | c", 1, "expected an alternative, got nothing"),
+        ("<a> ::= b <c> ::= d", 1, "<c> ::= must begin a line"),
+        ("<a> ::= b ::= c", 1, "unexpected ::="),
+        ("<a> ::= b\n<c> ::= <d>\n<d> ::= <c> x", 2, "<c> never ends"),
+        ("<a> ::= <GECodonValue{1, 2}>", 1, "GECodonValue is not supported"),
+        ("<a> ::= b\\n", 1, "unexpected backslash"),
+    ],
+)
+def test_an_error_says_where_and_what_was_expected(text, line, message):
+    first = findings(text)[0]
+    assert first.startswith(f"toy.bnf:{line}: ")
+    assert message in first
+
+
+def test_all_errors_come_at_once_in_the_order_of_the_file():
+    found = findings('<a> ::= "b | c\n<b> ::= <nowhere>\n<a> ::= d\n<d> ::= | e\n')
+    assert [text.split(":")[1] for text in found] == ["1", "2", "3", "4"]
+
+
+def test_expansion_without_choices_is_bounded():
+    doubling = "<s> ::= <a0> | x\n" + "".join(
+        f"<a{i}> ::= <a{i + 1}> <a{i + 1}>\n" for i in range(40)
+    )
+    assert "without a choice" in findings(doubling + "<a40> ::= y\n")[0]
+
+
+def test_an_unreachable_rule_is_a_warning():
+    grammar = Grammar.parse("<a> ::= b\n<c> ::= <d>\n<d> ::= e", "toy.bnf")
+    assert [text.split(" ")[1] for text in grammar.warnings] == ["<c>", "<d>"]
+    assert grammar.warnings[0].startswith("toy.bnf:2: ")
+
+
+def test_vocabulary_fills_open_names():
+    grammar = Grammar.parse("<a> ::= <b> | x", vocabulary={"b": ["one", "two words"]})
+    assert grammar.rules["b"] == (("one",), ("two", "words"))
+
+
+def test_vocabulary_errors():
+    text = "<a> ::= <b> | x"
+    assert "<b> is not defined" in findings(text)[0]
+    assert "empty" in findings(text, {"b": []})[0]
+    assert "no rule uses" in findings(text, {"b": ["y"], "c": ["z"]})[0]
+    assert "defined here" in findings(text, {"b": ["y"], "a": ["z"]})[0]
+
+
+def test_a_file_that_cannot_be_read(tmp_path):
+    with pytest.raises(GrammarError, match=r"nowhere\.bnf: cannot be read"):
+        Grammar.load(tmp_path / "nowhere.bnf")
+    (tmp_path / "latin.bnf").write_bytes(b"<a> ::= \xe9")
+    with pytest.raises(GrammarError, match="cannot be read"):
+        Grammar.load(tmp_path / "latin.bnf")
+
+
+def test_load_reports_the_file(tmp_path):
+    path = tmp_path / "mine.bnf"
+    path.write_text("<a> ::= <b>\n")
+    with pytest.raises(GrammarError) as caught:
+        Grammar.load(path)
+    assert str(caught.value).startswith(f"{path}:1: <b> is not defined")
+
+
+def test_geswarm_choice_points_are_the_papers(vocabulary):
+    grammar = geswarm_grammar(vocabulary)
+    assert grammar.warnings == ()
+    assert {name: grammar.choices(name) for name in grammar.rules} == {
+        "S": 1,
+        "Rs": 2,
+        "R": 1,
+        "Ps": 2,
+        "more-Ps": 2,
+        "Bs": 2,
+        "more-Bs": 2,
+        "As": 2,
+        "P": 2,
+        "B": 1,
+        "A": 2,
+        "A_B": 1,
+        "A_IS": 1,
+        "new_value": 2,
+        "P_name": 3,
+        "B_name": 3,
+        "IS_name": 2,
+        "value": 8,
+    }
+
+
+def test_geswarm_needs_its_vocabulary(vocabulary):
+    with pytest.raises(GrammarError) as caught:
+        geswarm_grammar({name: vocabulary[name] for name in ("P_name", "B_name")})
+    assert len(caught.value.findings) == 2
