@@ -44,7 +44,7 @@ class Access:
         target = parse_authority(hosts[0], 80) if len(hosts) == 1 else None
         if target is None:
             return "expected exactly one Host header with a host name and port"
-        if not self._ours(*target, port):
+        if not self._ours(target[0]):
             return self._foreign_host(hosts[0], port)
         if len(origins) > 1:
             return "expected at most one Origin header"
@@ -52,10 +52,11 @@ class Access:
             return f"pages of {origins[0]} may not use this app; open it at http://{hosts[0]}"
         return None
 
-    def _ours(self, name: str, named_port: int, port: int) -> bool:
+    def _ours(self, name: str) -> bool:
+        # Any port will do: one forwarded through ssh or a container differs from ours.
         if self.loopback:
-            return is_loopback(name) and named_port == port
-        # A forwarded port may differ, and an IP address cannot be rebound.
+            return is_loopback(name)
+        # An IP address cannot be rebound.
         return is_loopback(name) or _is_ip_address(name) or name in self._own_names()
 
     def _own_names(self) -> set[str]:
@@ -63,10 +64,7 @@ class Access:
 
     def _foreign_host(self, given: str, port: int) -> str:
         if self.loopback:
-            return (
-                f"this app does not answer to {given}; open it at http://127.0.0.1:{port} "
-                "(forwarded through ssh: use the same port on both sides)"
-            )
+            return f"this app does not answer to {given}; open it at http://127.0.0.1:{port}"
         return f"this app does not answer to {given}; open it at this machine's IP address"
 
 

@@ -140,7 +140,7 @@ class Arena:
         look = footbot()
         robots = RobotHandles(
             shadows=self._batch("shadows", look.shadow, count, (10, 12, 18), opacity=0.4),
-            glows=self._batch("glows", look.glow, count, _TRIM, opacity=0.11),
+            glows=self._batch("glows", look.glow, count, _TRIM, opacity=0.13),
             bodies=self._batch("bodies", look.body, count, _BODY),
             trims=self._batch("trims", look.trim, count, _TRIM),
             leds=self._batch("leds", look.leds, count, _TRIM),

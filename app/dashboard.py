@@ -32,7 +32,7 @@ _TABLE_WIDTH = 600
 _CONTROLS_WIDTH = 320
 _TABLE = (
     '<iframe src="/rules/rules.html?theme=light" title="Rule table" '
-    'style="display:block;width:100%;height:calc(100vh - 3.2em);border:0"></iframe>'
+    'style="display:block;width:100%;height:calc(100vh - 72px);border:0"></iframe>'
 )
 
 logger = logging.getLogger(__name__)

@@ -17,13 +17,15 @@ from .evolution import REFERENCES, EvolutionThread, Phase
 from .run_directory import new_run_directory
 from .session import Session
 
+_DASHED = uplot.Series(dash=(6.0, 4.0))
 _CURVES = (
-    ("best so far", "#0f62d6", 2.5, None),
-    ("best of generation", "#7aa7e8", 1.0, None),
-    ("mean", "#8a8f98", 1.5, None),
-    ("hand-coded", "#c2410c", 1.5, (6.0, 4.0)),
-    ("EVO 8", "#15803d", 1.5, (6.0, 4.0)),
+    ("best so far", "#0f62d6", 2.5, uplot.Series()),
+    ("best of generation", "#7aa7e8", 1.0, uplot.Series()),
+    ("mean", "#8a8f98", 1.5, uplot.Series()),
+    ("hand-coded", "#c2410c", 1.5, _DASHED),
+    ("EVO 8", "#15803d", 1.5, _DASHED),
 )
+_FONT = "11px system-ui, sans-serif"
 
 
 @dataclass
@@ -53,22 +55,7 @@ class EvolutionPanel:
         """Make the widgets in the present container."""
         status = gui.add_html(status_html(self.session.evolution))
         progress = gui.add_progress_bar(0.0, visible=False)
-        chart = gui.add_uplot(
-            data=tuple(np.zeros(1) for _ in range(len(_CURVES) + 1)),
-            series=(
-                uplot.Series(label="generation"),
-                *(
-                    uplot.Series(
-                        label=label, stroke=colour, width=width, **({"dash": dash} if dash else {})
-                    )
-                    for label, colour, width, dash in _CURVES
-                ),
-            ),
-            scales={"x": uplot.Scale(time=False)},
-            axes=(uplot.Axis(label="generation"), uplot.Axis(label="objects collected")),
-            aspect=1.35,
-            visible=False,
-        )
+        chart = add_chart(gui)
         start = gui.add_button("Start evolution", icon=viser.Icon.DNA_2)
         pause = gui.add_button("Pause", icon=viser.Icon.PLAYER_PAUSE, visible=False)
         stop = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, visible=False)
@@ -137,6 +124,33 @@ def pause_or_go_on(evolution: EvolutionThread) -> None:
         evolution.go_on()
     else:
         evolution.pause()
+
+
+def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
+    """The fitness curves, hidden as long as there is nothing to draw."""
+
+    def axis(label: str, size: float) -> uplot.Axis:
+        return uplot.Axis(
+            label=label, labelSize=16, labelFont=_FONT, font=_FONT, size=size, ticks={"size": 4}
+        )
+
+    return gui.add_uplot(
+        data=tuple(np.zeros(1) for _ in range(len(_CURVES) + 1)),
+        series=(
+            uplot.Series(label="generation"),
+            *(
+                uplot.Series(
+                    label=label, stroke=colour, width=width, points={"show": False}, **dash
+                )
+                for label, colour, width, dash in _CURVES
+            ),
+        ),
+        scales={"x": uplot.Scale(time=False)},
+        axes=(axis("generation", 24), axis("objects collected", 32)),
+        legend=uplot.Legend(live=False),
+        aspect=1.35,
+        visible=False,
+    )
 
 
 def curves(evolution: EvolutionThread) -> tuple[np.ndarray, ...]:

@@ -27,7 +27,7 @@ _RING_LOW, _RING_HIGH = 0.058, 0.094
 _RING_INSIDE = 0.066
 _TOWER_RADIUS = 0.048
 
-_GLOW_LAYERS = ((2.2, 0.0050), (2.0, 0.0055), (1.8, 0.0060), (1.6, 0.0065), (1.4, 0.0070))
+_GLOW_LAYERS = ((2.2, 0.0050), (1.95, 0.0056), (1.7, 0.0062), (1.45, 0.0068))
 """(radius in body radii, z) of faint discs, one above the other: brighter towards the robot."""
 
 
@@ -59,7 +59,7 @@ def footbot() -> FootBot:
         trim=_trim(),
         leds=_leds(),
         shadow=lathe(((1.15 * RADIUS, 0.0078), (0.0, 0.0078)), 20),
-        glow=merged([lathe(((r * RADIUS, z), (0.0, z)), 24) for r, z in _GLOW_LAYERS]),
+        glow=merged([lathe(((r * RADIUS, z), (0.0, z)), 20) for r, z in _GLOW_LAYERS]),
         carried=puck().moved(z=HEIGHT),
     )
 
@@ -71,7 +71,7 @@ def puck() -> Mesh:
 
 
 def _body() -> Mesh:
-    base = lathe(((0.0, 0.014), (0.068, 0.014), (0.078, 0.030), (0.078, _RING_LOW)), 20)
+    base = lathe(((0.066, 0.012), (0.078, 0.030), (0.078, _RING_LOW)), 20)
     deck = lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 20)
     arrow = prism(((-0.014, 0.0), (-0.030, -0.030), (0.042, 0.0), (-0.030, 0.030)), 0.140, HEIGHT)
     return merged((base, _tread(0.056), _tread(-0.056), deck, arrow))
@@ -86,16 +86,19 @@ def _tread(y: float) -> Mesh:
 
 
 def _trim() -> Mesh:
-    rim = lathe(((0.078, 0.050), (RADIUS, 0.050), (RADIUS, _RING_LOW)), 24)
+    rim = lathe(((0.078, 0.050), (RADIUS, 0.050), (RADIUS, _RING_LOW)), 20)
     r = _TOWER_RADIUS
     tower = lathe(
         ((r, 0.084), (r, 0.112), (r - 0.008, 0.120), (r - 0.008, 0.134), (0.0, 0.140)), 16
     )
     pointer = prism(((0.050, -0.026), (0.100, 0.0), (0.050, 0.026)), 0.088, 0.100)
     claws = [
-        prism(((0.080, y - 0.006), (0.108, y - 0.003), (0.108, y + 0.003), (0.080, y + 0.006)), *z)
+        prism(
+            ((0.080, y - 0.006), (0.108, y - 0.003), (0.108, y + 0.003), (0.080, y + 0.006)),
+            0.040,
+            0.070,
+        )
         for y in (-0.024, 0.024)
-        for z in ((0.040, 0.070),)
     ]
     return merged((rim, tower, pointer, *claws))
 
@@ -110,7 +113,7 @@ def _leds() -> Mesh:
             (inside, _RING_HIGH),
             (inside, 0.084),
         ),
-        24,
+        20,
     )
 
 

@@ -56,10 +56,12 @@ class RulePage:
         self.channel.send(client, self._live(), live=True)
 
     def _receive(self, client: Client, message: Message) -> None:
+        before = self.session.document.version
         try:
             self._carry_out(client, message)
         except (EditError, RuleSetError) as error:
             self._notice(client, str(error))
+        if self.session.document.version == before:  # the page waits for an answer
             self.channel.send(client, self._rules())
 
     def _carry_out(self, client: Client, message: Message) -> None:

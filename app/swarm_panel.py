@@ -13,7 +13,7 @@ from geswarm.sim import load_scenario, scenario_names
 from .playback import SPEEDS
 from .session import Session
 
-_PLAY, _PAUSE = "Play", "Pause"
+_PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"
 
 
 def speed_label(speed: float) -> str:
@@ -47,10 +47,12 @@ class SwarmPanel:
         score = gui.add_html("")
         play = gui.add_button(_PLAY, icon=viser.Icon.PLAYER_PLAY)
         play.on_click(lambda _: post(lambda s: s.pause() if s.playback.playing else s.play()))
-        step = gui.add_button("Step", icon=viser.Icon.PLAYER_TRACK_NEXT, hint="One control step")
-        step.on_click(lambda _: post(lambda s: s.step()))
-        reset = gui.add_button("Reset", icon=viser.Icon.REFRESH, hint="Start the run again")
-        reset.on_click(lambda _: post(lambda s: s.reset()))
+        run = gui.add_button_group(
+            "Run", (_STEP, _RESET), hint="One control step of 0.1 s; or start the run again"
+        )
+        run.on_click(
+            lambda event: post(lambda s: s.step() if event.target.value == _STEP else s.reset())
+        )
         speeds = {speed_label(speed): speed for speed in SPEEDS}
         speed = gui.add_button_group("Speed", tuple(speeds))
         speed.on_click(lambda event: post(lambda s: s.set_speed(speeds[event.target.value])))

@@ -198,7 +198,8 @@ export class RuleCard {
       },
       h("span", { class: "knob" }),
     );
-    this.handle = h("div", { class: "badge", title: "Drag to move this rule" }, h("i", {}, "R"), this.number);
+    const handle = { class: "badge", title: "Drag to move this rule" };
+    this.handle = h("div", handle, h("i", {}, "R"), this.number);
     makeDraggable(this, this.handle);
     return h("div", { class: "gutter" }, this.handle, this.rate, this.toggle);
   }

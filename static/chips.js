@@ -24,7 +24,11 @@ class Chip {
 
   /** @param {(element: any) => any} change Makes the new element from the present one. */
   set(change) {
-    return this.card.edit((rule) => this.#place(rule, "set", { element: change(this.item) }));
+    return this.card.edit((rule) => {
+      const element = change(this.item);
+      const same = JSON.stringify(element) === JSON.stringify(this.item);
+      return same ? null : this.#place(rule, "set", { element });
+    });
   }
 
   remove() {
@@ -126,7 +130,8 @@ export class ActionChip extends Chip {
       class: "truth",
       onclick: () => this.set((action) => ({ ...action, value: !action.value })),
     });
-    const p = h("label", { class: "p" }, h("i", {}, "p"), h("span", { class: "sign" }, "="), this.p.node);
+    const equals = h("span", { class: "sign" }, "=");
+    const p = h("label", { class: "p" }, h("i", {}, "p"), equals, this.p.node);
     this.body.append(p, h("span", { class: "sign arrow" }, "→"), this.lamp, this.target);
     this.body.append(this.assigns, this.value);
   }
@@ -144,7 +149,8 @@ export class ActionChip extends Chip {
     if (changesBehaviour) return;
     this.value.textContent = String(action.value);
     this.value.dataset.value = String(action.value);
-    identify(this.value, `${this.id}-value`, `${name} becomes ${action.value}: change to ${!action.value}`);
+    const label = `${name} becomes ${action.value}: change to ${!action.value}`;
+    identify(this.value, `${this.id}-value`, label);
   }
 
   #targets() {

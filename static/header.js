@@ -76,7 +76,7 @@ export class Header {
   #files() {
     const file = h("input", {
       type: "file",
-      accept: ".yaml,.yml,.txt",
+      accept: ".yaml,.yml,.rules,.txt",
       hidden: true,
       "aria-label": "Rule set file",
       "data-testid": "file",

@@ -38,8 +38,7 @@ class Parameter:
             return f"expected a {'whole ' if whole else ''}number, got {_shown(value)}"
         if whole and not isinstance(value, int | np.integer):
             return f"expected a whole number, got {_shown(value)}"
-        inside = self.low < value <= self.high if self.above else self.low <= value <= self.high
-        if inside:
+        if value <= self.high and (value > self.low if self.above else value >= self.low):
             return None
         low = f"more than {self.low:g}" if self.above else f"at least {self.low:g}"
         return f"expected {low} and at most {self.high:g}{self.unit}, got {_shown(value)}"
@@ -137,8 +136,10 @@ def _shown(value: Any) -> str:
         return "nothing"
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, int) and abs(value) >= 10**15:
+        return "a number of more than 15 digits"
     if isinstance(value, int | float | np.integer | np.floating):
-        return f"{value:g}" if abs(value) >= 1e15 else str(value)
+        return str(value)
     if not isinstance(value, str):
         return f"a {type(value).__name__}"
     short = value if len(value) <= 40 else f"{value[:37]}..."

@@ -4,6 +4,7 @@ import os
 import shutil
 
 import pytest
+
 from geswarm.app.channel import Channel
 from geswarm.app.gate import open_server
 

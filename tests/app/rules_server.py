@@ -7,11 +7,11 @@ from http import HTTPStatus
 from pathlib import Path
 
 import websockets.asyncio.server
-from geswarm.app.document import RuleDocument
 from websockets.datastructures import Headers
 from websockets.http11 import Response
 
 import geswarm
+from geswarm.app.document import RuleDocument
 from geswarm.rules import (
     FORAGING,
     EditError,

@@ -2,6 +2,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
 from geswarm.app import palette
 from geswarm.app.arena import Arena
 from geswarm.app.view import ArenaView

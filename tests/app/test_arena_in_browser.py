@@ -4,12 +4,12 @@ import time
 import imageio.v3 as imageio
 import numpy as np
 import pytest
+
 from geswarm.app.arena import Arena
 from geswarm.app.camera import framing
 from geswarm.app.scenery import outer_points
 from geswarm.app.view import ArenaView
 
-from .conftest import VIEWPORT
 from .test_arena import PAPER, WIDE
 from .test_camera import picture
 
@@ -32,11 +32,12 @@ def screenshot(page):
 
 def around(image, x, y, shape=PAPER, radius=26):
     """The part of the picture around a place on the ground, shape (m, m, 3)."""
-    aspect = VIEWPORT["width"] / VIEWPORT["height"]
+    rows, columns = image.shape[:2]
+    aspect = columns / rows
     pose = framing(outer_points(shape), aspect)
     right, up = picture(np.array([(x, y, 0.07)]), pose, aspect)[0]
-    column = round((right + 1) / 2 * VIEWPORT["width"])
-    row = round((1 - up) / 2 * VIEWPORT["height"])
+    column = round((right + 1) / 2 * columns)
+    row = round((1 - up) / 2 * rows)
     return image[row - radius : row + radius, column - radius : column + radius]
 
 
@@ -93,6 +94,12 @@ def test_robots_are_drawn_where_they_are_in_the_colour_of_what_they_do(arena, pa
     arena.sync(view([GREEN, AMBER, BLUE], x=X - 0.5))
     image = wait_for(page, shows([GREEN, AMBER, BLUE], x=X - 0.5))
     assert strongest(around(image, X[1], Y[1]))[1] < 30
+
+
+def test_arena_stays_in_the_picture_when_the_window_changes(arena, page):
+    wait_for(page, shows([AMBER, BLUE, GREEN]))
+    page.set_viewport_size({"width": 820, "height": 1000})
+    wait_for(page, shows([AMBER, BLUE, GREEN]))
 
 
 def test_open_page_follows_a_change_of_the_scenario(arena, page):

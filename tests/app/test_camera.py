@@ -3,10 +3,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from geswarm.app.camera import FIELD_OF_VIEW, framing
-from geswarm.app.scenery import outer_points
 from hypothesis import given
 from hypothesis import strategies as st
+
+from geswarm.app.camera import FIELD_OF_VIEW, framing
+from geswarm.app.scenery import outer_points
 
 
 def picture(points, pose, aspect):

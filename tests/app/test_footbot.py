@@ -2,6 +2,9 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from geswarm.app.footbot import (
     HEIGHT,
     OBJECT_HEIGHT,
@@ -13,8 +16,6 @@ from geswarm.app.footbot import (
 )
 from geswarm.app.lettering import painted, text_width
 from geswarm.app.shapes import box, lathe, line, prism, rectangle
-from hypothesis import given
-from hypothesis import strategies as st
 
 PARTS = vars(footbot())
 WORDS = ["NEST", "SOURCE", "1 m"]

@@ -8,11 +8,12 @@ import time
 import pytest
 import viser
 import websockets.sync.client
+from websockets.asyncio.server import serve
+
 from geswarm.app import channel as channel_module
 from geswarm.app import gate
 from geswarm.app.channel import MAX_MESSAGE_BYTES, Channel
 from geswarm.app.gate import ServerError, open_server
-from websockets.asyncio.server import serve
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
 UPGRADE = {

@@ -2,8 +2,8 @@ import itertools
 
 import numpy as np
 import pytest
-from geswarm.app import palette
 
+from geswarm.app import palette
 from geswarm.rules.vocabulary import FORAGING
 
 # Machado, Oliveira and Fernandes 2009, severity 1: linear RGB as it is seen with the deficiency.

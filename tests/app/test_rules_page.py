@@ -176,11 +176,13 @@ def test_actions_are_added_and_changed_between_their_two_kinds(page, server):
     expect(page.get_by_test_id("rule-3-action-2-p")).to_be_focused()
     page.get_by_test_id("rule-3-action-2-value").click()
     sees_edit(page, server, page_set(2, "actions", 1, {**element, "value": True}))
+    choose(page, "rule-3-action-2-target", "WANT_OBJECT-true")  # what it is already: no edit
     choose(page, "rule-3-action-2-target", "PHOTOTAXIS")
     sees_edit(page, server, page_set(2, "actions", 1, {"p": 1, "behaviour": "PHOTOTAXIS"}))
     choose(page, "rule-3-action-2-target", "DROP_OBJECT-true")
     element = {"p": 1, "state": "DROP_OBJECT", "value": True}
     sees_edit(page, server, page_set(2, "actions", 1, element))
+    assert len(server.edits) == 4
 
 
 def test_rules_are_added_duplicated_moved_switched_off_and_deleted(page, server):

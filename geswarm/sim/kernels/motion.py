@@ -10,6 +10,14 @@ from geswarm.sim.kernels.jit import inlined
 from geswarm.sim.kernels.placement import restart_walk
 from geswarm.sim.kernels.state import ANTI_PHOTOTAXIS, RANDOM_WALK, Physics
 
+STRAIGHT_BEHIND = 1e-9
+"""A target that is behind the robot to within this angle (rad) is turned to by the left.
+
+A robot that drives towards the light until its heading is exact, and then is to drive away from it,
+would else turn by the left or by the right according to the last bit of a rounding error, which
+differs between machines.
+"""
+
 
 @inlined
 def avoid_robots(physics: Physics, robots: Any) -> bool:
@@ -52,7 +60,7 @@ def _wall(gap: float, proximity_range: float) -> float:
 
 @inlined
 def _angle(x: float, y: float) -> float:
-    """atan2(y, x) to 2e-14, without branches and so at a third of its cost; (0, 0) has angle 0.
+    """atan2(y, x) to 2e-14, without branches, which is what makes it fast; (0, 0) has angle 0.
 
     The ratio of the smaller to the larger coordinate is brought down to tan(pi / 8) by the addition
     theorem; the polynomial interpolates the arctangent at Chebyshev nodes.
@@ -120,6 +128,8 @@ def move(physics: Physics, robot: Any, step: int) -> None:
     left = ty * cos - tx * sin
     length = math.sqrt(ahead * ahead + left * left)
     alpha = _angle(ahead, left)
+    if alpha < STRAIGHT_BEHIND - math.pi:
+        alpha += 2.0 * math.pi
     forward = physics.max_speed * (max(0.0, ahead / length) if length > 0.0 else 1.0)
     turn = physics.turn_gain * alpha
     fastest = forward + abs(turn) * physics.wheel_base / 2.0

@@ -1,0 +1,27 @@
+import ast
+from pathlib import Path
+
+from geswarm.sim import compiled
+from geswarm.sim.kernels import run
+
+FOLDER = Path(run.__file__).parent
+
+
+def test_a_change_of_any_kernel_source_is_a_new_version(tmp_path):
+    versions = {compiled._VERSION}
+    for changed in FOLDER.glob("*.py"):
+        for source in FOLDER.glob("*.py"):
+            text = source.read_text() + ("\n" if source == changed else "")
+            (tmp_path / source.name).write_text(text)
+        versions.add(compiled._fingerprint(tmp_path))
+    assert len(versions) == 1 + len(list(FOLDER.glob("*.py")))
+
+
+def test_kernels_import_numba_numpy_and_the_standard_library_alone():
+    allowed = {"__future__", "math", "typing", "numpy", "numba", "geswarm.sim.kernels"}
+    for source in FOLDER.glob("*.py"):
+        for node in ast.walk(ast.parse(source.read_text())):
+            if isinstance(node, ast.Import):
+                assert {name.name for name in node.names} <= allowed
+            elif isinstance(node, ast.ImportFrom):
+                assert node.module in allowed or node.module.startswith("geswarm.sim.kernels.")
