@@ -99,8 +99,8 @@ class Dashboard:
         self._stop.set()
 
     def close(self) -> None:
-        """Stop the evolution and the server."""
-        self.session.evolution.stop()
+        """Stop the session's background work and the server."""
+        self.session.close()
         self.server.stop()
 
     def _frame(self, elapsed: float) -> None:

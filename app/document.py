@@ -33,6 +33,11 @@ class RuleDocument:
         """True if there is a change to make again."""
         return bool(self._future)
 
+    @property
+    def before(self) -> RuleSet | None:
+        """The rules before the last change; None if there was none."""
+        return self._past[-1] if self._past else None
+
     def edit(self, edit: dict[str, Any]) -> None:
         """Make one edit (see `geswarm.rules.edits`).
 

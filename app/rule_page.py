@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from geswarm.rules.as_json import rule_set_to_json
 from . import palette
 from .channel import Channel, Client, Message
 from .session import Session
+from .verdict import RUNS, Answer
 
 LIVE_SECONDS = 0.1
 MAX_TEXT = 200_000
@@ -38,6 +40,7 @@ class RulePage:
         )
         self._shown_version = 0
         self._since_live = 0.0
+        self._shown_answer: Answer | None = None
 
     def sync(self, elapsed: float) -> None:
         """Send what has changed to all pages; called by the loop once a frame."""
@@ -45,6 +48,9 @@ class RulePage:
         if version != self._shown_version:
             self._shown_version = version
             self.channel.broadcast(self._rules())
+        if self.session.verdict.answer is not self._shown_answer:
+            self._shown_answer = self.session.verdict.answer
+            self.channel.broadcast(verdict_message(self._shown_answer), live=True)
         self._since_live += elapsed
         if self._since_live >= LIVE_SECONDS:
             self._since_live = 0.0
@@ -54,6 +60,7 @@ class RulePage:
         self.channel.send(client, _vocabulary())
         self.channel.send(client, self._rules())
         self.channel.send(client, self._live(), live=True)
+        self.channel.send(client, verdict_message(self.session.verdict.answer), live=True)
 
     def _receive(self, client: Client, message: Message) -> None:
         before = self.session.document.version
@@ -124,6 +131,27 @@ class RulePage:
             "behaviours": robots.tolist(),
             "robots": len(state.behaviour),
         }
+
+
+def verdict_message(answer: Answer | None) -> Message:
+    """What is known of the verdict, for pages."""
+    if answer is None:
+        return {"type": "verdict", "version": 0, "busy": True, "samples": [], "comparisons": []}
+    return {
+        "type": "verdict",
+        "version": answer.question.version,
+        "scenario": answer.question.scenario.name,
+        "runs": RUNS,
+        "busy": answer.busy,
+        "samples": [
+            {"role": sample.role, "name": sample.name, "collected": sample.collected.tolist()}
+            for sample in answer.samples
+        ],
+        "comparisons": [
+            {"role": role, **asdict(comparison)}
+            for role, comparison in answer.comparisons().items()
+        ],
+    }
 
 
 def _text(message: Message, key: str) -> str:

@@ -18,6 +18,7 @@ from geswarm.sim import CONTROL_STEP, Scenario, World
 from .document import RuleDocument
 from .evolution import EvolutionThread
 from .playback import Playback
+from .verdict import Question, Verdict
 from .view import ArenaView, between
 
 Command: TypeAlias = Callable[["Session"], None]
@@ -34,6 +35,7 @@ class Session:
         world: The swarm.
         playback: Play, pause, speed.
         evolution: The background evolution.
+        verdict: What the last change did to the score.
         scenario_version: Grows when the scenario changes.
     """
 
@@ -46,8 +48,10 @@ class Session:
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
         self.scenario_version = 1
+        self.verdict = Verdict(evolution.workers)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._jump()
+        self._ask_for_verdict()
 
     # --- the loop -----------------------------------------------------------------------------
 
@@ -119,6 +123,7 @@ class Session:
         self.world = World(scenario, self.document.rule_set, self.world.seed)
         self.scenario_version += 1
         self._jump()
+        self._ask_for_verdict()
 
     # --- commands: rules ----------------------------------------------------------------------
 
@@ -169,3 +174,15 @@ class Session:
 
     def _follow_document(self) -> None:
         self.world.set_rules(self.document.rule_set)
+        self._ask_for_verdict()
+
+    def _ask_for_verdict(self) -> None:
+        document = self.document
+        self.verdict.ask(
+            Question(document.version, document.rule_set, document.before, self.scenario)
+        )
+
+    def close(self) -> None:
+        """Stop everything that runs in the background."""
+        self.evolution.stop()
+        self.verdict.close()

@@ -22,6 +22,42 @@ class Comparison:
     effect: float
 
 
+@dataclass(frozen=True)
+class PairedDifference:
+    """Mean of a minus mean of b over paired runs.
+
+    Attributes:
+        difference: Of the means.
+        low: Lower end of its 95 % interval (Student's t).
+        high: Upper end.
+        p_value: Two-sided Wilcoxon signed-rank test.
+    """
+
+    difference: float
+    low: float
+    high: float
+    p_value: float
+
+
+def paired_difference(a: ArrayLike, b: ArrayLike) -> PairedDifference:
+    """Compare two samples whose runs had the same random streams.
+
+    Raises:
+        ValueError: They are not of the same length, or have fewer than two runs.
+    """
+    first, second = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    if first.shape != second.shape or first.size < 2:
+        raise ValueError(
+            f"expected two samples of equal length >= 2, got {first.size} and {second.size} values"
+        )
+    differences = first - second
+    mean = float(differences.mean())
+    error = float(differences.std(ddof=1)) / first.size**0.5
+    reach = float(stats.t.ppf(0.975, first.size - 1)) * error
+    p_value = float(stats.wilcoxon(differences).pvalue) if differences.any() else 1.0
+    return PairedDifference(mean, mean - reach, mean + reach, p_value)
+
+
 def compare(a: ArrayLike, b: ArrayLike) -> Comparison:
     """Compare two samples of collected objects.
 

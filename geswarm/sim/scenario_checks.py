@@ -59,8 +59,8 @@ PARAMETERS: Mapping[str, Parameter] = {
     "random_walk": Parameter(float, 0, 1e6, " s", above=True),
     "max_speed": Parameter(float, 0, 10, " m/s", above=True),
     "turn_gain": Parameter(float, 0, 1e3, " 1/s"),
-    "proximity_range": Parameter(float, 0, 1e4, " m"),
-    "rab_range": Parameter(float, 0, 1e4, " m"),
+    "proximity_range": Parameter(float, 0, 1e4, " m", above=True),
+    "rab_range": Parameter(float, 0, 1e4, " m", above=True),
     "avoidance_gain": Parameter(float, 0, 1e3),
 }
 """What each parameter may be; `random_walk` is a pair of these."""

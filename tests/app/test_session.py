@@ -29,7 +29,7 @@ HALF_P = {
 def session():
     session = Session(PAPER, load_preset("evo8"), EvolutionThread(workers=1))
     yield session
-    session.evolution.stop()
+    session.close()
 
 
 def run(session, seconds, frame=0.1):

@@ -53,12 +53,6 @@ def _apart(dx: float, dy: float) -> tuple[float, float, float]:
 
 
 @inlined
-def _wall(gap: float, proximity_range: float) -> float:
-    """Strength of the avoidance of a wall that is `gap` away from the body's edge."""
-    return 1.0 - gap / proximity_range if gap < proximity_range else 0.0
-
-
-@inlined
 def _angle(x: float, y: float) -> float:
     """atan2(y, x) to 2e-14, without branches, which is what makes it fast; (0, 0) has angle 0.
 
@@ -110,12 +104,14 @@ def _target(physics: Physics, robot: Any, step: int) -> tuple[float, float]:
         if robot.behaviour == ANTI_PHOTOTAXIS:
             scale = -scale
         tx, ty = -x * scale, dy * scale
-    west = _wall(physics.half_width + x - physics.radius, physics.proximity_range)
-    east = _wall(physics.half_width - x - physics.radius, physics.proximity_range)
-    south = _wall(physics.half_length + y - physics.radius, physics.proximity_range)
-    north = _wall(physics.half_length - y - physics.radius, physics.proximity_range)
-    tx += physics.avoidance_gain * (robot.away_x + west - east)
-    ty += physics.avoidance_gain * (robot.away_y + south - north)
+    near = physics.radius + physics.proximity_range  # a wall is sensed nearer than this
+    per_range = 1.0 / physics.proximity_range
+    west = max(0.0, near - (physics.half_width + x))
+    east = max(0.0, near - (physics.half_width - x))
+    south = max(0.0, near - (physics.half_length + y))
+    north = max(0.0, near - (physics.half_length - y))
+    tx += physics.avoidance_gain * (robot.away_x + per_range * (west - east))
+    ty += physics.avoidance_gain * (robot.away_y + per_range * (south - north))
     return tx, ty
 
 

@@ -1,6 +1,7 @@
 """The two kernels that run the model: by control table (fast), or by rules (says which fired).
 
-They are built by functions so that `geswarm.sim.compiled` can tell numba's cache about all sources.
+They are built by functions so that `geswarm.sim.compiled` can tell numba's cache about all sources:
+a kernel that mentions `version` has it in its cache key. That is why they return it.
 """
 
 from __future__ import annotations

@@ -1,0 +1,189 @@
+"""Did the edit make it better? Full runs in the background, the newest rules first.
+
+All versions run with the same random streams (run i of one against run i of another), so that the
+difference of means has the interval of paired samples and small effects show.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from geswarm.analysis import PairedDifference, paired_difference
+from geswarm.experiment import evaluate_rule_sets
+from geswarm.rules import ControlTable, RuleSet, load_preset
+from geswarm.sim import EvaluationStopped, Scenario
+
+RUNS = 50
+_FIRST_RUNS = 10  # the first look at every sample; then all of them in full
+_REFERENCES = ("evo8", "hand-coded")
+_CACHED_SAMPLES = 500
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a verdict is wanted on.
+
+    Attributes:
+        version: Of the document.
+        rule_set: The rules now.
+        before: The rules before the last change; None if there was none.
+        scenario: Where they are run.
+    """
+
+    version: int
+    rule_set: RuleSet
+    before: RuleSet | None
+    scenario: Scenario
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """The runs of one rule set so far.
+
+    Attributes:
+        role: `current`, `before`, or the name of a preset.
+        name: For people.
+        collected: Objects collected per run, shape (runs so far,).
+    """
+
+    role: str
+    name: str
+    collected: npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The verdict as far as it is known.
+
+    Attributes:
+        question: What was asked.
+        samples: The rules now, before, and the presets, in this order.
+        busy: More runs are to come.
+    """
+
+    question: Question
+    samples: tuple[Sample, ...] = ()
+    busy: bool = True
+
+    def comparisons(self) -> dict[str, PairedDifference]:
+        """Mean of the rules now minus the mean of each other sample, over their common runs."""
+        if not self.samples:
+            return {}
+        current, *others = self.samples
+        found = {}
+        for other in others:
+            runs = min(len(current.collected), len(other.collected))
+            if runs > 1:
+                found[other.role] = paired_difference(
+                    current.collected[:runs], other.collected[:runs]
+                )
+        return found
+
+
+@dataclass
+class Verdict:
+    """Evaluates one question at a time on a thread of its own; a newer one cancels it.
+
+    Attributes:
+        workers: Threads that simulate.
+        answer: To the newest question, replaced as runs come in; None before the first question.
+    """
+
+    workers: int = 1
+    answer: Answer | None = None
+    _question: Question | None = None
+    _changed: threading.Condition = field(default_factory=threading.Condition)
+    _thread: threading.Thread | None = None
+    _closed: bool = False
+    _samples: OrderedDict[bytes, npt.NDArray[np.int64]] = field(default_factory=OrderedDict)
+
+    def ask(self, question: Question) -> None:
+        """Begin with a question at once; what was under way is dropped."""
+        with self._changed:
+            self._question = question
+            self._changed.notify()
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._work, name="verdict", daemon=True)
+            self._thread.start()
+
+    def close(self) -> None:
+        """End the thread."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+        if self._thread is not None:
+            self._thread.join(10)
+
+    def _work(self) -> None:
+        answered: Question | None = None
+        while True:
+            with self._changed:
+                while self._question is answered and not self._closed:
+                    self._changed.wait()
+                if self._closed:
+                    return
+                question = self._question
+            answered = question
+            if question is not None:
+                self._answer(question)
+
+    def _answer(self, question: Question) -> None:
+        def stop() -> bool:
+            return self._closed or self._question is not question
+
+        self.answer = Answer(question)
+        try:
+            for runs in (_FIRST_RUNS, RUNS):
+                self._run_all(question, runs, stop)
+        except EvaluationStopped:
+            return
+        self.answer = Answer(question, self._known(question), busy=False)
+
+    def _run_all(self, question: Question, runs: int, stop: Callable[[], bool]) -> None:
+        for _, _, rule_set in contestants(question):
+            self._run(rule_set, question.scenario, runs, stop)
+            self.answer = Answer(question, self._known(question))
+
+    def _run(
+        self, rule_set: RuleSet, scenario: Scenario, runs: int, stop: Callable[[], bool]
+    ) -> None:
+        key = _key(rule_set, scenario)
+        if len(self._samples.get(key, ())) >= runs:
+            self._samples.move_to_end(key)
+            return
+        (evaluation,) = evaluate_rule_sets(
+            [rule_set], scenario, runs, workers=self.workers, stop=stop
+        )
+        self._samples[key] = evaluation.collected
+        while len(self._samples) > _CACHED_SAMPLES:
+            self._samples.popitem(last=False)
+
+    def _known(self, question: Question) -> tuple[Sample, ...]:
+        """The samples so far; the rules now always come first, even while they have no run."""
+        nothing = np.zeros(0, dtype=np.int64)
+        return tuple(
+            Sample(role, name, self._samples.get(_key(rule_set, question.scenario), nothing))
+            for role, name, rule_set in contestants(question)
+        )
+
+
+def contestants(question: Question) -> list[tuple[str, str, RuleSet]]:
+    """(role, name, rules) of everything that a verdict compares."""
+    found = [("current", "these rules", question.rule_set)]
+    if question.before is not None:
+        found.append(("before", "before the edit", question.before))
+    for name in _REFERENCES:
+        preset = load_preset(name)
+        found.append((name, preset.name, preset))
+    return found
+
+
+def _key(rule_set: RuleSet, scenario: Scenario) -> bytes:
+    """Rule sets that behave alike share their runs."""
+    return ControlTable.compile(rule_set).probabilities.tobytes() + scenario.to_yaml().encode()
