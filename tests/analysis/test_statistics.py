@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.analysis import compare
+from geswarm.analysis import compare, paired_difference
 
 samples = st.lists(st.integers(0, 200), min_size=1, max_size=30)
 
@@ -24,3 +24,18 @@ def test_clear_difference_is_significant_and_none_is_not():
 def test_empty_sample_is_refused():
     with pytest.raises(ValueError, match="got 0 and 1 values"):
         compare([], [1])
+
+
+def test_paired_difference_sees_what_unpaired_tests_miss():
+    base = list(range(0, 200, 10))
+    better = [value + 2 + value % 3 for value in base]
+    change = paired_difference(better, base)
+    assert 2 <= change.low <= change.difference <= change.high <= 4
+    assert change.p_value < 0.001
+    assert compare(better, base).p_value > 0.5
+
+
+def test_paired_difference_of_equals_is_nothing():
+    assert paired_difference([3, 4], [3, 4]).p_value == 1.0
+    with pytest.raises(ValueError, match="equal length"):
+        paired_difference([1, 2, 3], [1, 2])
