@@ -108,7 +108,7 @@ def _show(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    """Exit 1 if there is anything to report, 0 if the rule set is sound."""
+    """Exit 1 if there is an error or a warning; hints are about pieces without effect."""
     from geswarm.rules import RuleSetError, RuleSetNotFoundError, check, load_rule_set
 
     try:
@@ -121,7 +121,7 @@ def _check(options: argparse.Namespace) -> int:
         print(f"{finding.severity}: {finding}")
     if not findings:
         print(f"{options.rules}: no findings")
-    return 1 if findings else 0
+    return int(any(finding.severity != "hint" for finding in findings))
 
 
 def _evaluate(options: argparse.Namespace) -> int:

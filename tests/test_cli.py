@@ -85,6 +85,28 @@ def test_check_lists_every_finding(tmp_path, capsys):
     ]
 
 
+def test_check_lists_hints_but_only_warnings_and_errors_set_the_exit_status(tmp_path, capsys):
+    assert main(["check", "evo8"]) == 0
+    out = capsys.readouterr().out.splitlines()
+    assert (
+        "hint: rule 4, action 1: no effect: the behaviour is already PHOTOTAXIS whenever this rule "
+        "fires"
+    ) in out
+    assert all(line.startswith("hint: ") for line in out)
+    stuck = tmp_path / "stuck.rules"
+    stuck.write_text("rule do p = 0.1, PHOTOTAXIS do p = 0.1, ANTI-PHOTOTAXIS\n")
+    assert main(["check", str(stuck)]) == 1
+    assert capsys.readouterr().out == (
+        "warning: objects are never dropped: DROP_OBJECT is never set while one is held\n"
+    )
+    sound = tmp_path / "sound.rules"
+    sound.write_text(
+        "rule do p = 0.1, PHOTOTAXIS do p = 0.1, ANTI-PHOTOTAXIS do p = 0.1, DROP_OBJECT = true\n"
+    )
+    assert main(["check", str(sound)]) == 0
+    assert capsys.readouterr().out == f"{sound}: no findings\n"
+
+
 def test_rules_come_from_standard_input(monkeypatch, capsys):
     result = subprocess.run(
         [sys.executable, "-m", "geswarm.cli", "show", "-", "--as", "yaml"],

@@ -12,9 +12,12 @@ rule
 <BLANKLINE>
 """
 
-from geswarm.rules.check import Finding, Place, RuleSetError, check
+from geswarm.rules.check import check
+from geswarm.rules.compare import Difference, first_difference, same_behaviour
 from geswarm.rules.control_table import ControlTable, Indexing
 from geswarm.rules.edits import EditError, apply_edit
+from geswarm.rules.english import describe, describe_rule
+from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.library import (
     FORMATS,
     RuleSetNotFoundError,
@@ -34,6 +37,7 @@ from geswarm.rules.model import (
     StateChange,
 )
 from geswarm.rules.paper_table import format_table
+from geswarm.rules.simplify import Simplification, simplify
 from geswarm.rules.text import format_text, parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.rules.yaml_form import format_yaml, parse_yaml
@@ -44,6 +48,7 @@ __all__ = [
     "Action",
     "BehaviourChange",
     "ControlTable",
+    "Difference",
     "EditError",
     "Finding",
     "Indexing",
@@ -54,10 +59,14 @@ __all__ = [
     "RuleSet",
     "RuleSetError",
     "RuleSetNotFoundError",
+    "Simplification",
     "StateChange",
     "Vocabulary",
     "apply_edit",
     "check",
+    "describe",
+    "describe_rule",
+    "first_difference",
     "format_table",
     "format_text",
     "format_yaml",
@@ -67,5 +76,7 @@ __all__ = [
     "parse_yaml",
     "preset_names",
     "read_rule_set",
+    "same_behaviour",
     "save_rule_set",
+    "simplify",
 ]

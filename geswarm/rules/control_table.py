@@ -8,14 +8,15 @@ whatever the number of rules.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.check import require_known_names
 from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
@@ -91,37 +92,52 @@ class ControlTable:
     def compile(cls, rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> ControlTable:
         """Compile the enabled rules.
 
-        Every action is a 0/1 matrix on outcomes, mixed in with its probability; a rule applies its
-        actions to the part of the distribution in which it is active when its turn comes.
-
         Raises:
             RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
         """
         require_known_names(rule_set, vocabulary)
         indexing = Indexing.of(vocabulary)
-        distribution = _before_any_rule(indexing)
+        distribution = before_any_rule(vocabulary)
         for rule in rule_set.active_rules:
-            active = distribution * _active(rule, vocabulary)
-            waiting = distribution - active
-            for action in rule.actions:
-                active = (1.0 - action.p) * active + action.p * (
-                    active @ _action_matrix(action, vocabulary)
-                )
-            distribution = waiting + active
+            distribution = apply_rule(distribution, rule, vocabulary)
         table = np.ascontiguousarray(distribution.reshape(indexing.situations, indexing.outcomes))
         table.setflags(write=False)
         return cls(table, vocabulary)
 
 
-def _before_any_rule(indexing: Indexing) -> FloatArray:
+def before_any_rule(vocabulary: Vocabulary) -> FloatArray:
     """Nothing has changed yet; shape (percepts, behaviours * states, outcomes)."""
+    indexing = Indexing.of(vocabulary)
     starts = indexing.behaviours * indexing.states
     identity = np.zeros((starts, indexing.outcomes))
     identity[np.arange(starts), 2 * np.arange(starts)] = 1.0
     return np.broadcast_to(identity, (indexing.percepts, *identity.shape)).copy()
 
 
-def _active(rule: Rule, vocabulary: Vocabulary) -> FloatArray:
+def apply_rule(distribution: FloatArray, rule: Rule, vocabulary: Vocabulary) -> FloatArray:
+    """The distribution after one more rule.
+
+    The rule applies its actions, in order, to the part in which it is active when its turn comes.
+
+    Args:
+        distribution: Shape (percepts, any, outcomes).
+        rule: Whether it is enabled is not asked.
+        vocabulary: The names that the numbers stand for.
+    """
+    active = distribution * active_part(rule, vocabulary)
+    waiting = distribution - active
+    for action in rule.actions:
+        active = apply_action(active, action, vocabulary)
+    return waiting + active
+
+
+def apply_action(distribution: FloatArray, action: Action, vocabulary: Vocabulary) -> FloatArray:
+    """Mix in the outcomes of the action with its probability; shape (..., outcomes)."""
+    done = distribution @ _action_matrix(replace(action, p=1.0), vocabulary)
+    return (1.0 - action.p) * distribution + action.p * done
+
+
+def active_part(rule: Rule, vocabulary: Vocabulary) -> FloatArray:
     """1 where the rule is active, else 0; shape (percepts, 1, outcomes)."""
     indexing = Indexing.of(vocabulary)
     percepts = np.ones(indexing.percepts)
@@ -135,8 +151,9 @@ def _active(rule: Rule, vocabulary: Vocabulary) -> FloatArray:
     return percepts[:, None, None] * outcomes[None, None, :]
 
 
+@lru_cache(maxsize=64)
 def _action_matrix(action: Action, vocabulary: Vocabulary) -> FloatArray:
-    """The action as a 0/1 matrix from outcome to outcome, shape (outcomes, outcomes)."""
+    """What the action does, as a 0/1 matrix from outcome to outcome, (outcomes, outcomes)."""
     indexing = Indexing.of(vocabulary)
     matrix = np.zeros((indexing.outcomes, indexing.outcomes))
     for before in range(indexing.outcomes):
@@ -150,4 +167,5 @@ def _action_matrix(action: Action, vocabulary: Vocabulary) -> FloatArray:
             bit = 1 << vocabulary.state_index[action.state]
             state = state | bit if action.value else state & ~bit
         matrix[before, indexing.outcome(behaviour, state, restart)] = 1.0
+    matrix.setflags(write=False)
     return matrix

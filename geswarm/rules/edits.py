@@ -16,13 +16,16 @@ from geswarm.rules.as_json import (
     precondition_from_json,
     rule_from_json,
 )
-from geswarm.rules.check import RuleSetError, require_known_names
+from geswarm.rules.findings import RuleSetError
 from geswarm.rules.model import Rule, RuleSet
+from geswarm.rules.names import require_known_names
+from geswarm.rules.text import parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 MAX_RULES = 1000
 MAX_ELEMENTS = 1000
 MAX_COMMENT = 10_000
+MAX_PASTE = 200_000
 
 _ELEMENT_READERS: dict[str, Callable[[Any], Any]] = {
     "preconditions": precondition_from_json,
@@ -47,7 +50,7 @@ def apply_edit(
     if make is None:
         raise EditError(f"unknown edit {edit.get('do')!r}; expected one of {', '.join(EDITS)}")
     try:
-        edited = make(rule_set, edit)
+        edited = make(rule_set, edit, vocabulary)
         require_known_names(edited, vocabulary)
     except (JsonError, RuleSetError) as error:
         raise EditError(str(error)) from error
@@ -64,10 +67,10 @@ def _position(edit: dict[str, Any], key: str, length: int, what: str) -> int:
     return value
 
 
-def _text(edit: dict[str, Any], key: str) -> str:
+def _text(edit: dict[str, Any], key: str, most: int = MAX_COMMENT) -> str:
     value = edit.get(key)
-    if not isinstance(value, str) or len(value) > MAX_COMMENT:
-        raise EditError(f"{key} must be a text of at most {MAX_COMMENT} characters")
+    if not isinstance(value, str) or len(value) > most:
+        raise EditError(f"{key} must be a text of at most {most} characters")
     return value
 
 
@@ -79,44 +82,53 @@ def _with_rule(rule_set: RuleSet, at: int, rule: Rule) -> RuleSet:
     return replace(rule_set, rules=(*rule_set.rules[:at], rule, *rule_set.rules[at + 1 :]))
 
 
-def _insert_rule(rule_set: RuleSet, at: int, rule: Rule) -> RuleSet:
-    return replace(rule_set, rules=(*rule_set.rules[:at], rule, *rule_set.rules[at:]))
+def _insert(rule_set: RuleSet, at: int, *rules: Rule) -> RuleSet:
+    return replace(rule_set, rules=(*rule_set.rules[:at], *rules, *rule_set.rules[at:]))
 
 
-def _set_name(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _set_name(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     return replace(rule_set, name=_text(edit, "name"))
 
 
-def _add_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _add_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _position(edit, "at", len(rule_set.rules) + 1, "place for rule")
-    return _insert_rule(rule_set, at, rule_from_json(edit.get("rule", {})))
+    return _insert(rule_set, at, rule_from_json(edit.get("rule", {})))
 
 
-def _remove_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _paste_rules(rule_set: RuleSet, edit: dict[str, Any], vocabulary: Vocabulary) -> RuleSet:
+    """Insert rules written in the rule language; a name or origin among them is left out."""
+    at = _position(edit, "at", len(rule_set.rules) + 1, "place for rule")
+    pasted = parse_text(_text(edit, "text", MAX_PASTE), vocabulary=vocabulary).rules
+    if not pasted:
+        raise EditError("expected at least one rule, for example: rule do p = 1, PHOTOTAXIS")
+    return _insert(rule_set, at, *pasted)
+
+
+def _remove_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
     return replace(rule_set, rules=rule_set.rules[:at] + rule_set.rules[at + 1 :])
 
 
-def _duplicate_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _duplicate_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
-    return _insert_rule(rule_set, at + 1, rule_set.rules[at])
+    return _insert(rule_set, at + 1, rule_set.rules[at])
 
 
-def _move_rule(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _move_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
     to = _position(edit, "to", len(rule_set.rules), "place for rule")
     without = replace(rule_set, rules=rule_set.rules[:at] + rule_set.rules[at + 1 :])
-    return _insert_rule(without, to, rule_set.rules[at])
+    return _insert(without, to, rule_set.rules[at])
 
 
-def _set_enabled(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _set_enabled(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
     if not isinstance(edit.get("enabled"), bool):
         raise EditError(f"enabled must be true or false, got {edit.get('enabled')!r}")
     return _with_rule(rule_set, at, replace(rule_set.rules[at], enabled=edit["enabled"]))
 
 
-def _set_comment(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _set_comment(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
     return _with_rule(rule_set, at, replace(rule_set.rules[at], comment=_text(edit, "comment")))
 
@@ -138,7 +150,7 @@ def _change_part(
     return _with_rule(rule_set, at, replace(rule_set.rules[at], **changes))
 
 
-def _add(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _add(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     def change(elements: tuple[Any, ...], read: Callable[[Any], Any]) -> tuple[Any, ...]:
         at = _position(edit, "at", len(elements) + 1, "place")
         return (*elements[:at], read(edit.get("element")), *elements[at:])
@@ -146,7 +158,7 @@ def _add(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
     return _change_part(rule_set, edit, change)
 
 
-def _set(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _set(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     def change(elements: tuple[Any, ...], read: Callable[[Any], Any]) -> tuple[Any, ...]:
         at = _position(edit, "at", len(elements), "element")
         return (*elements[:at], read(edit.get("element")), *elements[at + 1 :])
@@ -154,7 +166,7 @@ def _set(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
     return _change_part(rule_set, edit, change)
 
 
-def _remove(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
+def _remove(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     def change(elements: tuple[Any, ...], _read: Callable[[Any], Any]) -> tuple[Any, ...]:
         at = _position(edit, "at", len(elements), "element")
         return elements[:at] + elements[at + 1 :]
@@ -162,10 +174,11 @@ def _remove(rule_set: RuleSet, edit: dict[str, Any]) -> RuleSet:
     return _change_part(rule_set, edit, change)
 
 
-EDITS: dict[str, Callable[[RuleSet, dict[str, Any]], RuleSet]] = {
+EDITS: dict[str, Callable[[RuleSet, dict[str, Any], Vocabulary], RuleSet]] = {
     "set_name": _set_name,
     "add_rule": _add_rule,
     "remove_rule": _remove_rule,
+    "paste_rules": _paste_rules,
     "duplicate_rule": _duplicate_rule,
     "move_rule": _move_rule,
     "set_enabled": _set_enabled,

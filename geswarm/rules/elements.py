@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-from geswarm.rules.check import probability_error, unknown_name
 from geswarm.rules.model import Action, BehaviourChange, Precondition, StateChange
+from geswarm.rules.names import probability_error, unknown_name
 from geswarm.rules.vocabulary import Vocabulary
 
 _NAME = r"[A-Za-z_][A-Za-z0-9_-]*"

@@ -7,8 +7,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from geswarm.rules.check import Finding, Place, RuleSetError, unknown_name
+from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import RuleSet
+from geswarm.rules.names import unknown_name
 from geswarm.rules.text import format_text, parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.rules.yaml_form import format_yaml, parse_yaml

@@ -22,7 +22,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from geswarm.rules.check import Finding, Place, RuleSetError
 from geswarm.rules.elements import (
     ElementError,
     format_action,
@@ -31,6 +30,7 @@ from geswarm.rules.elements import (
     parse_behaviour,
     parse_precondition,
 )
+from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -55,8 +55,13 @@ def format_text(rule_set: RuleSet) -> str:
     if origin:
         lines.append(f"origin {origin}")
     for rule in rule_set.rules:
-        lines += ["", *_comment_lines(rule.comment), *_rule_lines(rule)]
+        lines += ["", format_rule(rule)]
     return "\n".join(lines) + "\n"
+
+
+def format_rule(rule: Rule) -> str:
+    """One rule with its comment, as it stands in the text of its rule set."""
+    return "\n".join([*_comment_lines(rule.comment), *_rule_lines(rule)])
 
 
 def _comment_lines(comment: str) -> list[str]:

@@ -26,11 +26,13 @@ class BehaviourName:
     Attributes:
         name: As written in rules.
         doing: Phrase that describes it.
+        start: Phrase for changing to it.
         restarts: True if switching into it starts something afresh (random walk: a new heading).
     """
 
     name: str
     doing: str
+    start: str
     restarts: bool = False
 
 
@@ -54,14 +56,41 @@ class InternalStateName:
 
 
 @dataclass(frozen=True)
+class ObjectNames:
+    """How rules see and move the object that a robot carries.
+
+    Attributes:
+        holding: The percept that is true exactly while the robot carries an object.
+        wanting: The internal state without which no object is picked up.
+        dropping: The internal state that drops the object at the end of the step.
+    """
+
+    holding: str
+    wanting: str
+    dropping: str
+
+
+@dataclass(frozen=True)
 class Vocabulary:
-    """Everything that a rule may mention; the order fixes bits and codes."""
+    """Everything that a rule may mention; the order fixes bits and codes.
+
+    Attributes:
+        preconditions: Percepts.
+        behaviours: Low-level behaviours.
+        internal_states: Internal state variables.
+        probabilities: Values of p that the grammar and the editor offer.
+        initial_behaviour: Behaviour at the start of a run.
+        apart: Pairs of percepts that never hold together.
+        objects: What carries, wants and drops objects; None if there are none.
+    """
 
     preconditions: tuple[PreconditionName, ...]
     behaviours: tuple[BehaviourName, ...]
     internal_states: tuple[InternalStateName, ...]
     probabilities: tuple[float, ...]
     initial_behaviour: str
+    apart: tuple[tuple[str, str], ...] = ()
+    objects: ObjectNames | None = None
 
     @cached_property
     def precondition_index(self) -> dict[str, int]:
@@ -96,9 +125,9 @@ FORAGING = Vocabulary(
         PreconditionName("HAS_OBJECT", "holding an object", "not holding an object"),
     ),
     behaviours=(
-        BehaviourName("PHOTOTAXIS", "going to the light"),
-        BehaviourName("ANTI-PHOTOTAXIS", "going away from the light"),
-        BehaviourName("RANDOM_WALK", "walking at random", restarts=True),
+        BehaviourName("PHOTOTAXIS", "going to the light", "go to the light"),
+        BehaviourName("ANTI-PHOTOTAXIS", "going away from the light", "go away from the light"),
+        BehaviourName("RANDOM_WALK", "walking at random", "start walking at random", restarts=True),
     ),
     internal_states=(
         InternalStateName(
@@ -110,4 +139,6 @@ FORAGING = Vocabulary(
     ),
     probabilities=(0.001, 0.005, 0.01, 0.025, 0.05, 0.075, 0.1, 1.0),
     initial_behaviour="RANDOM_WALK",
+    apart=(("ON_NEST", "ON_SOURCE"),),
+    objects=ObjectNames("HAS_OBJECT", wanting="WANT_OBJECT", dropping="DROP_OBJECT"),
 )

@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 
 import yaml
 
-from geswarm.rules.check import Finding, Place, RuleSetError, unknown_name
 from geswarm.rules.elements import (
     ElementError,
     format_action,
@@ -26,7 +25,9 @@ from geswarm.rules.elements import (
     parse_behaviour,
     parse_precondition,
 )
+from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import Origin, Rule, RuleSet
+from geswarm.rules.names import unknown_name
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA = 1

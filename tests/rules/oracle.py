@@ -1,9 +1,12 @@
 """What the paper says a rule set does in one step, enumerated draw by draw, without matrices."""
 
 from collections import defaultdict
+from dataclasses import replace
 from fractions import Fraction
 
-from geswarm.rules import FORAGING, BehaviourChange
+import numpy as np
+
+from geswarm.rules import FORAGING, BehaviourChange, ControlTable
 
 
 def outcomes(rule_set, percepts, behaviour, states):
@@ -46,3 +49,71 @@ def _done(action, now):
         return action.behaviour, states, restarted
     others = states - {action.state}
     return behaviour, others | {action.state} if action.value else others, restarted
+
+
+def reachable(rule_set):
+    """All situations (percepts, behaviour, true states) that a run can come to, by search."""
+    found, waiting = [], [(False, "RANDOM_WALK", frozenset({"WANT_OBJECT"}))]
+    seen = set(waiting)
+    while waiting:
+        holding, behaviour, states = waiting.pop()
+        for on_nest, on_source in ((False, False), (True, False), (False, True)):
+            percepts = {"ON_NEST": on_nest, "ON_SOURCE": on_source, "HAS_OBJECT": holding}
+            found.append((percepts, behaviour, states))
+            for after, true_states, _ in outcomes(rule_set, percepts, behaviour, states):
+                still = holding and "DROP_OBJECT" not in true_states
+                for holds in (False, True):
+                    if holds != still and not (holds and "WANT_OBJECT" in true_states):
+                        continue
+                    body = (holds, after, true_states - {"DROP_OBJECT"})
+                    if body not in seen:
+                        seen.add(body)
+                        waiting.append(body)
+    return found
+
+
+def differs(a, b):
+    """Whether two rule sets decide differently in a situation that a run under `a` can come to.
+
+    From the control tables, which other tests hold against `outcomes`: enumeration takes too long.
+    """
+    one, two = (ControlTable.compile(each).probabilities for each in (a, b))
+    seen, waiting = set(), [(False, 2 * 4 + 1)]
+    while waiting:
+        holding, inner = body = waiting.pop()
+        if body in seen:
+            continue
+        seen.add(body)
+        for percepts in (4, 5, 6) if holding else (0, 1, 2):
+            row = percepts * 12 + inner
+            if np.abs(one[row] - two[row]).max() > 1e-12:
+                return True
+            for outcome in np.flatnonzero(one[row]):
+                after, states = divmod(int(outcome) // 2, 4)
+                still = holding and not states & 2
+                waiting += [(still, after * 4 + states % 2)]
+                waiting += [(True, after * 4 + 1)] if states & 1 else []
+    return False
+
+
+def without_pieces(rule_set):
+    """(rule number, element, the rule set without it) for every enabled rule and its pieces."""
+    for at, rule in enumerate(rule_set.rules):
+        if not rule.enabled:
+            continue
+
+        def with_rule(*rules, at=at):
+            return replace(
+                rule_set, rules=(*rule_set.rules[:at], *rules, *rule_set.rules[at + 1 :])
+            )
+
+        yield at + 1, "", with_rule()
+        for part in ("preconditions", "behaviours", "actions"):
+            elements = getattr(rule, part)
+            for index in range(len(elements)):
+                rest = elements[:index] + elements[index + 1 :]
+                if rest or part != "behaviours":
+                    changed = replace(rule, **{part: rest})
+                    yield at + 1, f"{part[:-1]} {index + 1}", with_rule(changed)
+        if rule.behaviours:
+            yield at + 1, "behaviours", with_rule(replace(rule, behaviours=()))

@@ -1,8 +1,10 @@
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.rules import EditError, RuleSet, apply_edit, check, load_preset
+from geswarm.rules import EditError, RuleSet, apply_edit, format_text, load_preset, parse_text
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.edits import EDITS
 
@@ -90,7 +92,7 @@ json_values = st.recursive(
         {"do": st.sampled_from(list(EDITS))},
         optional={
             key: json_values | st.sampled_from(["preconditions", "behaviours", "actions"])
-            for key in ("rule", "at", "to", "part", "element", "enabled", "comment", "name")
+            for key in ("rule", "at", "to", "part", "element", "enabled", "comment", "name", "text")
         },
     )
 )
@@ -101,19 +103,40 @@ def test_any_message_gives_a_rule_set_or_an_edit_error(edit):
         assert str(error)
 
 
-def test_check_finds_what_never_happens():
-    rule_set = load_preset("evo8")
-    for edit in (
-        {"do": "add", "rule": 1, "part": "preconditions", "at": 1,
-         "element": {"name": "ON_NEST", "holds": False}},
-        {"do": "set", "rule": 2, "part": "actions", "at": 0,
-         "element": {"p": 0, "behaviour": "PHOTOTAXIS"}},
-        {"do": "remove", "rule": 0, "part": "actions", "at": 0},
-    ):  # fmt: skip
-        rule_set = apply_edit(rule_set, edit)
-    assert [str(finding) for finding in check(rule_set)] == [
-        "rule 1, actions: no action: this rule does nothing",
-        "rule 2, precondition 2: ON_NEST cannot be both true and false: this rule never fires",
-        "rule 3, action 1: p = 0: this action never happens",
+def test_pasted_rules_are_inserted_in_order():
+    text = """name "ignored"
+# why
+rule off if ON_NEST == true do p = 0.25, RANDOM_WALK
+rule do p = 1, PHOTOTAXIS"""
+    pasted = parse_text(text).rules
+    assert edited(do="paste_rules", at=1, text=text) == replace(
+        EVO8, rules=(EVO8.rules[0], *pasted, *EVO8.rules[1:])
+    )
+    assert pasted[0].comment == "why"
+    everything = apply_edit(RuleSet(), {"do": "paste_rules", "at": 0, "text": format_text(EVO8)})
+    assert everything.rules == EVO8.rules
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        ({"at": 5, "text": "rule do p = 1, PHOTOTAXIS"}, "no place for rule 6; expected 1 to 5"),
+        ({"at": 0, "text": 7}, "text must be a text of at most 200000 characters"),
+        ({"at": 0, "text": "#" * 200_001}, "text must be a text of at most 200000 characters"),
+        ({"at": 0, "text": " "}, "expected at least one rule"),
+        ({"at": 0, "text": 'name "x"'}, "expected at least one rule"),
+        ({"at": 0, "text": "rule do p = 1, PHOTOTAXIS " * 1000}, "expected at most 1000 rules"),
+    ],
+)
+def test_impossible_pastes_are_refused_with_a_reason(edit, message):
+    with pytest.raises(EditError, match=message):
+        edited(do="paste_rules", **edit)
+
+
+def test_every_error_in_a_pasted_text_is_listed_with_its_line():
+    with pytest.raises(EditError) as error:
+        edited(do="paste_rules", at=0, text="rule if ON_NST == true\n  do p = 2, PHOTOTAXIS")
+    assert str(error.value).split("\n") == [
+        "line 1: rule 1, precondition 1: unknown precondition 'ON_NST'; did you mean ON_NEST?",
+        "line 2: rule 1, action 1: probability must be between 0 and 1, got 2.0",
     ]
-    assert check(EVO8) == []

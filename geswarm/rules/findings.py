@@ -1,0 +1,54 @@
+"""Findings: what there is to know about a rule set or a file, each with its place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Severity: TypeAlias = Literal["error", "warning", "hint"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a finding is: file and line (text input), rule number and element within the rule.
+
+    `rule` counts from 1; `element` is the reader's word for the part, for example `action 2`.
+    """
+
+    source: str = ""
+    line: int | None = None
+    rule: int | None = None
+    element: str = ""
+
+    def __str__(self) -> str:
+        where = self.source
+        if self.line is not None:
+            where = f"{where}:{self.line}" if where else f"line {self.line}"
+        inside = [f"rule {self.rule}"] if self.rule is not None else []
+        inside += [self.element] if self.element else []
+        return ": ".join(part for part in (where, ", ".join(inside)) if part)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing to know about a rule set.
+
+    An error forbids running it; a warning says that it cannot be meant so; a hint says that a
+    piece has no effect, which is true and harmless.
+    """
+
+    place: Place
+    message: str
+    severity: Severity = "error"
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.message}" if str(self.place) else self.message
+
+
+class RuleSetError(ValueError):
+    """A rule set cannot be used; `findings` lists every reason."""
+
+    def __init__(self, findings: Iterable[Finding]) -> None:
+        self.findings = tuple(findings)
+        super().__init__("\n".join(str(finding) for finding in self.findings))

@@ -1,0 +1,122 @@
+"""The shortest rule set found with exactly the same behaviour."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+from geswarm.rules.control_table import FloatArray, apply_rule
+from geswarm.rules.elements import format_action, format_precondition
+from geswarm.rules.model import Rule, RuleSet
+from geswarm.rules.reachability import Trace, is_nothing, no_change
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
+
+_Shorter: TypeAlias = Callable[[Rule], Iterator[Rule | None]]
+
+
+@dataclass(frozen=True)
+class Simplification:
+    """A shorter rule set and what was left out.
+
+    Attributes:
+        rule_set: Behaves exactly as the original in all situations that robots can get into.
+        removed: `rule 3` or `rule 2: action p = 1, PHOTOTAXIS`, numbered as in the original.
+    """
+
+    rule_set: RuleSet
+    removed: tuple[str, ...]
+
+
+def simplify(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> Simplification:
+    """Leave out, one after the other, every piece without which the behaviour stays the same.
+
+    Whole rules first, the last one first; then actions, preconditions and behaviours; again until
+    nothing more can go. Removing preconditions or all behaviours of a rule lets it hold more often,
+    in situations where that makes no difference. Comments and names stay, rules that are switched
+    off stay as they are: they have no behaviour that could be kept.
+
+    Raises:
+        RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+    """
+    rules: list[Rule | None] = [rule if rule.enabled else None for rule in rule_set.rules]
+    target = Trace.of(rule_set, vocabulary)
+    before: list[Rule | None] = []
+    while rules != before:
+        before = rules
+        for shorter in (_no_rule, _without_one_piece):
+            rules = _sweep(rules, shorter, target)
+    kept = [
+        rule if original.enabled else original
+        for original, rule in zip(rule_set.rules, rules, strict=True)
+    ]
+    removed = [
+        line
+        for number, (original, rule) in enumerate(zip(rule_set.rules, kept, strict=True), start=1)
+        for line in _removed(number, original, rule)
+    ]
+    remaining = tuple(rule for rule in kept if rule is not None)
+    return Simplification(replace(rule_set, rules=remaining), tuple(removed))
+
+
+def _sweep(rules: list[Rule | None], shorter: _Shorter, target: Trace) -> list[Rule | None]:
+    """Shorten the rules from the last to the first as far as `target` allows; None is no rule."""
+    vocabulary = target.vocabulary
+    before = [target.before[0]]
+    for rule in rules:
+        before.append(apply_rule(before[-1], rule, vocabulary) if rule else before[-1])
+    after = no_change(vocabulary)
+    swept = list(rules)
+    for at in reversed(range(len(rules))):
+        swept[at] = rule = _shortened(rules[at], shorter, target, before[at], after)
+        if rule is not None:
+            after = apply_rule(no_change(vocabulary), rule, vocabulary) @ after
+    return swept
+
+
+def _shortened(
+    rule: Rule | None, shorter: _Shorter, target: Trace, turn: FloatArray, after: FloatArray
+) -> Rule | None:
+    """One rule without all that can go; `turn` comes before it, `after` are the rules behind it."""
+    while rule is not None:
+        for candidate in shorter(rule):
+            done = turn if candidate is None else apply_rule(turn, candidate, target.vocabulary)
+            if is_nothing(done @ after - target.before[-1]):
+                rule = candidate
+                break
+        else:
+            return rule
+    return None
+
+
+def _no_rule(_: Rule) -> Iterator[Rule | None]:
+    yield None
+
+
+def _without_one_piece(rule: Rule) -> Iterator[Rule | None]:
+    for part in ("actions", "preconditions", "behaviours"):
+        elements: tuple[Any, ...] = getattr(rule, part)
+        if part == "behaviours" and elements:
+            yield replace(rule, behaviours=())
+            if len(elements) == 1:
+                return
+        for index in reversed(range(len(elements))):
+            changes: dict[str, Any] = {part: elements[:index] + elements[index + 1 :]}
+            yield replace(rule, **changes)
+
+
+def _removed(number: int, original: Rule, rule: Rule | None) -> Iterator[str]:
+    if rule is None:
+        yield f"rule {number}"
+        return
+    for kind, elements, kept in (
+        (
+            "precondition",
+            *(map(format_precondition, each.preconditions) for each in (original, rule)),
+        ),
+        ("behaviour", original.behaviours, rule.behaviours),
+        ("action", *(map(format_action, each.actions) for each in (original, rule))),
+    ):
+        for element in (Counter(elements) - Counter(kept)).elements():
+            yield f"rule {number}: {kind} {element}"

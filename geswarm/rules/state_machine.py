@@ -1,0 +1,278 @@
+"""A rule set as the probabilistic finite state machine that it is (paper, section 5).
+
+States are behaviours, each split by those internal states that do not always have the same value.
+Transitions are read off the exact outcome distributions of one control step, in all situations that
+robots can get into; situations that they cannot get into make the conditions shorter.
+
+>>> from geswarm.rules import StateMachine, load_rule_set
+>>> machine = StateMachine.of(load_rule_set("hand-coded"))
+>>> [state.label for state in machine.states]
+['PHOTOTAXIS', 'ANTI-PHOTOTAXIS', 'RANDOM_WALK']
+>>> for transition in machine.transitions_from(1):
+...     print(machine.describe(transition))
+ANTI-PHOTOTAXIS to RANDOM_WALK when ON_NEST: p = 1, at once; drop the object
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from geswarm.rules.conditions import Condition, minimise
+from geswarm.rules.control_table import Indexing
+from geswarm.rules.english import STEP_SECONDS
+from geswarm.rules.model import RuleSet
+from geswarm.rules.reachability import TOLERANCE, Trace
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
+
+_DIGITS = 12  # probabilities that agree to this many decimals are the same
+
+
+@dataclass(frozen=True)
+class State:
+    """A state of the machine.
+
+    Attributes:
+        behaviour: What the robot executes.
+        internal: The internal states that distinguish it from other states of the same behaviour.
+        initial: Whether robots start in it.
+    """
+
+    behaviour: str
+    internal: tuple[tuple[str, bool], ...] = ()
+    initial: bool = False
+
+    @property
+    def label(self) -> str:
+        """`RANDOM_WALK`, or `RANDOM_WALK, not WANT_OBJECT`."""
+        marks = [name if value else f"not {name}" for name, value in self.internal]
+        return ", ".join([self.behaviour, *marks])
+
+
+@dataclass(frozen=True)
+class Transition:
+    """What can happen in one control step, apart from nothing.
+
+    Attributes:
+        source: Index of the state before.
+        target: Index of the state after; the same as `source` for a loop, which has an effect.
+        condition: The percepts for which it can happen.
+        probability: Per control step in which the condition holds.
+        effects: Momentary internal states that are set; `DROP_OBJECT` only where one is held.
+        restarts: A loop that begins the behaviour afresh (random walk: a new heading).
+        rules: Numbers of the rules that bring it about, from 1.
+    """
+
+    source: int
+    target: int
+    condition: Condition
+    probability: float
+    effects: tuple[str, ...]
+    restarts: bool
+    rules: tuple[int, ...]
+
+    @property
+    def mean_wait(self) -> float:
+        """Mean time until it happens while the condition holds (s)."""
+        return STEP_SECONDS / self.probability
+
+    @property
+    def rate(self) -> str:
+        """Probability per step and mean waiting time: `p = 0.05, 2 s`."""
+        wait = "at once" if self.probability == 1 else f"{self.mean_wait:.2g} s"
+        if self.mean_wait >= 100:
+            wait = f"{self.mean_wait:.0f} s"
+        return f"p = {self.probability:.6g}, {wait}"
+
+
+@dataclass(frozen=True)
+class _Event:
+    """What a robot comes to in a step; the unit in which transitions are counted."""
+
+    target: int
+    effects: tuple[str, ...]
+    restarts: bool
+
+
+@dataclass(frozen=True)
+class StateMachine:
+    """States and transitions of a rule set.
+
+    Attributes:
+        name: Name of the rule set.
+        states: In the order of the vocabulary.
+        transitions: By source, then target; what remains to 1 in a state is the probability that
+            nothing happens.
+        vocabulary: The names.
+    """
+
+    name: str
+    states: tuple[State, ...]
+    transitions: tuple[Transition, ...]
+    vocabulary: Vocabulary
+
+    @classmethod
+    def of(cls, rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> StateMachine:
+        """The state machine of the rules that are switched on.
+
+        Raises:
+            RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+        """
+        reader = _Reader(rule_set, vocabulary)
+        transitions = tuple(
+            transition
+            for source in range(len(reader.states))
+            for transition in reader.transitions_from(source)
+        )
+        return cls(rule_set.name, reader.states, transitions, vocabulary)
+
+    def transitions_from(self, source: int) -> tuple[Transition, ...]:
+        """The transitions that leave a state, loops among them."""
+        return tuple(entry for entry in self.transitions if entry.source == source)
+
+    @cached_property
+    def between(self) -> dict[tuple[int, int], tuple[Transition, ...]]:
+        """Transitions by (source, target)."""
+        groups: dict[tuple[int, int], list[Transition]] = defaultdict(list)
+        for transition in self.transitions:
+            groups[transition.source, transition.target].append(transition)
+        return {pair: tuple(group) for pair, group in groups.items()}
+
+    def effects(self, transition: Transition) -> tuple[str, ...]:
+        """What a transition does besides changing the state, in words."""
+        vocabulary = self.vocabulary
+        phrases = [
+            vocabulary.internal_states[vocabulary.state_index[name]].on
+            for name in transition.effects
+        ]
+        if transition.restarts:
+            behaviour = self.states[transition.target].behaviour
+            entry = vocabulary.behaviours[vocabulary.behaviour_index[behaviour]]
+            phrases.append(f"{entry.start} afresh")
+        return tuple(phrases)
+
+    def describe(self, transition: Transition) -> str:
+        """One line about a transition."""
+        ends = f"{self.states[transition.source].label} to {self.states[transition.target].label}"
+        condition = str(transition.condition)
+        when = condition if condition == "always" else f"when {condition}"
+        return "; ".join([f"{ends} {when}: {transition.rate}", *self.effects(transition)])
+
+    def _repr_svg_(self) -> str:
+        """How notebooks show it."""
+        from geswarm.rules.exports.svg import machine_svg
+
+        return machine_svg(self)
+
+
+_Column: TypeAlias = int
+"""Behaviour and internal states at the start of a step, as the control table numbers them."""
+
+
+class _Reader:
+    """Reads states and transitions off a trace of the rule set."""
+
+    def __init__(self, rule_set: RuleSet, vocabulary: Vocabulary) -> None:
+        self.vocabulary = vocabulary
+        self.indexing = Indexing.of(vocabulary)
+        self.trace = Trace.of(rule_set, vocabulary)
+        self.numbers = [at for at, rule in enumerate(rule_set.rules, start=1) if rule.enabled]
+        self.names = tuple(entry.name for entry in vocabulary.preconditions)
+        self.columns = [int(column) for column in np.flatnonzero(self.trace.reachable.any(axis=0))]
+        self.relevant = self._relevant_bits()
+        self.states = tuple(map(self._state, self.columns))
+
+    def _relevant_bits(self) -> list[int]:
+        """The internal states that have both values at the start of some step."""
+        seen = [column % self.indexing.states for column in self.columns]
+        return [
+            bit
+            for bit in range(len(self.vocabulary.internal_states))
+            if len({states >> bit & 1 for states in seen}) == 2
+        ]
+
+    def _state(self, column: _Column) -> State:
+        behaviour, states = divmod(column, self.indexing.states)
+        name = self.vocabulary.behaviours[behaviour].name
+        return State(
+            name,
+            tuple(
+                (self.vocabulary.internal_states[bit].name, bool(states >> bit & 1))
+                for bit in self.relevant
+            ),
+            initial=name == self.vocabulary.initial_behaviour
+            and states == self.vocabulary.initial_states,
+        )
+
+    def transitions_from(self, source: int) -> Iterator[Transition]:
+        """Everything that can happen in a state, the same probabilities merged."""
+        column = self.columns[source]
+        reachable = np.flatnonzero(self.trace.reachable[:, column])
+        free = set(range(self.indexing.percepts)) - set(map(int, reachable))
+        percepts_of: dict[tuple[_Event, float], list[int]] = defaultdict(list)
+        for percepts in map(int, reachable):
+            for event, probability in self._events(percepts, column).items():
+                if probability > TOLERANCE and event != _Event(source, (), False):
+                    percepts_of[event, round(probability, _DIGITS)].append(percepts)
+        in_order = sorted(
+            percepts_of.items(),
+            key=lambda item: (item[0][0].target, item[0][0].effects, -item[0][1], item[1]),
+        )
+        for (event, probability), where in in_order:
+            yield Transition(
+                source,
+                event.target,
+                minimise(where, free, self.names),
+                probability,
+                event.effects,
+                event.restarts,
+                self._rules_behind(where, column, event),
+            )
+
+    def _events(self, percepts: int, column: _Column) -> dict[_Event, float]:
+        """Probability of everything that can happen in one situation."""
+        events: dict[_Event, float] = defaultdict(float)
+        row = self.trace.before[-1][percepts, column]
+        for outcome in np.flatnonzero(row):
+            events[self._event(percepts, column, int(outcome))] += float(row[outcome])
+        return events
+
+    def _event(self, percepts: int, column: _Column, outcome: int) -> _Event:
+        """Dropping counts only where an object is held: without one it does nothing."""
+        behaviour, states, restart = self.indexing.describe_outcome(outcome)
+        vocabulary = self.vocabulary
+        objects = vocabulary.objects
+        holding = objects is None or percepts >> vocabulary.precondition_index[objects.holding] & 1
+        effects = tuple(
+            entry.name
+            for bit, entry in enumerate(vocabulary.internal_states)
+            if entry.momentary
+            and states >> bit & 1
+            and (holding or objects is None or entry.name != objects.dropping)
+        )
+        after = behaviour * self.indexing.states + (states & vocabulary.lasting_states)
+        same = behaviour == column // self.indexing.states
+        return _Event(self.columns.index(after), effects, restart and same)
+
+    def _rules_behind(self, where: list[int], column: _Column, event: _Event) -> tuple[int, ...]:
+        """Rules that change something on some way to the event."""
+        behind = set()
+        for percepts in where:
+            finals = [
+                outcome
+                for outcome in map(int, np.flatnonzero(self.trace.before[-1][percepts, column]))
+                if self._event(percepts, column, outcome) == event
+            ]
+            for at, number in enumerate(self.numbers):
+                moves = self.trace.matrices[at][percepts] > 0
+                np.fill_diagonal(moves, False)
+                come_by = self.trace.before[at][percepts, column] > 0
+                lead_there = (self.trace.after[at + 1][percepts][:, finals] > 0).any(axis=1)
+                if (moves & come_by[:, None] & lead_there[None, :]).any():
+                    behind.add(number)
+        return tuple(sorted(behind))
