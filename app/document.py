@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from geswarm.rules import RuleSet, apply_edit
+from geswarm.rules import Rule, RuleSet, apply_edit
 
 MAX_HISTORY = 1000
 
@@ -15,11 +16,13 @@ class RuleDocument:
     Attributes:
         rule_set: As it stands now.
         version: Counts the changes; never goes back, not even by undo.
+        loaded: The rule set that was loaded last, for comparison.
     """
 
     def __init__(self, rule_set: RuleSet) -> None:
         self.rule_set = rule_set
         self.version = 1
+        self.loaded = rule_set
         self._past: list[RuleSet] = []
         self._future: list[RuleSet] = []
 
@@ -35,8 +38,9 @@ class RuleDocument:
 
     @property
     def before(self) -> RuleSet | None:
-        """The rules before the last change; None if there was none."""
-        return self._past[-1] if self._past else None
+        """The rules before the last change that is more than words; None if there was none."""
+        now = bare_rules(self.rule_set)
+        return next((past for past in reversed(self._past) if bare_rules(past) != now), None)
 
     def edit(self, edit: dict[str, Any]) -> None:
         """Make one edit (see `geswarm.rules.edits`).
@@ -45,6 +49,11 @@ class RuleDocument:
             EditError: It cannot be made; the document is untouched.
         """
         self.replace(apply_edit(self.rule_set, edit))
+
+    def load(self, rule_set: RuleSet) -> None:
+        """Put a rule set from elsewhere in place; differences are counted from it."""
+        self.loaded = rule_set
+        self.replace(rule_set)
 
     def replace(self, rule_set: RuleSet) -> None:
         """Put another rule set in place; `undo` brings the present one back."""
@@ -69,3 +78,8 @@ class RuleDocument:
     def _show(self, rule_set: RuleSet) -> None:
         self.rule_set = rule_set
         self.version += 1
+
+
+def bare_rules(rule_set: RuleSet) -> tuple[Rule, ...]:
+    """The rules without their comments: what the robots see of them."""
+    return tuple(replace(rule, comment="") for rule in rule_set.rules)

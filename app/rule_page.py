@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
+from collections.abc import Callable
 
-import numpy as np
+from geswarm.rules import FORMATS, EditError, RuleSetError, parse_text, simplify
 
-from geswarm.rules import (
-    FORAGING,
-    FORMATS,
-    EditError,
-    RuleSetError,
-    check,
-    load_preset,
-    preset_names,
-)
-from geswarm.rules.as_json import rule_set_to_json
-
-from . import palette
+from . import rule_messages
 from .channel import Channel, Client, Message
+from .insight import Insight
 from .session import Session
-from .verdict import RUNS, Answer
+from .verdict import Answer
+from .worth import WorthAnswer
 
 LIVE_SECONDS = 0.1
 MAX_TEXT = 200_000
+
+_CHANGES = frozenset(
+    ("edit", "undo", "redo", "load_preset", "load_text", "set_text", "take_simplified")
+)
+_SUFFIXES = {"yaml": "yaml", "text": "rules"}
 
 
 class RulePage:
@@ -38,120 +33,100 @@ class RulePage:
             ),
             on_connect=lambda client: session.post(lambda _: self._greet(client)),
         )
-        self._shown_version = 0
+        self._shown_rules: tuple[int, Insight | None] = (0, None)
         self._since_live = 0.0
         self._shown_answer: Answer | None = None
+        self._shown_worth: WorthAnswer | None = None
+        self._carry_out: dict[str, Callable[[Client, Message], None]] = {
+            "edit": self._edit,
+            "undo": lambda *_: session.undo(),
+            "redo": lambda *_: session.redo(),
+            "load_preset": lambda _, message: session.load_preset(_text(message, "name")),
+            "load_text": lambda _, message: session.load_text(
+                _text(message, "text"), _text(message, "name")
+            ),
+            "save": self._save,
+            "set_text": lambda _, message: session.set_text(_text(message, "text")),
+            "check_text": self._check_text,
+            "simplify": self._simplify,
+            "take_simplified": self._take_simplified,
+            "worth_start": lambda *_: session.weigh_pieces(),
+            "worth_cancel": lambda *_: session.worth.forget(session.document.version),
+        }
 
     def sync(self, elapsed: float) -> None:
         """Send what has changed to all pages; called by the loop once a frame."""
-        version = self.session.document.version
-        if version != self._shown_version:
-            self._shown_version = version
-            self.channel.broadcast(self._rules())
-        if self.session.verdict.answer is not self._shown_answer:
-            self._shown_answer = self.session.verdict.answer
-            self.channel.broadcast(verdict_message(self._shown_answer), live=True)
+        session, broadcast = self.session, self.channel.broadcast
+        shown = (session.document.version, session.insight.insight)
+        if shown != self._shown_rules:
+            self._shown_rules = shown
+            broadcast(self._rules())
+        if session.verdict.answer is not self._shown_answer:
+            self._shown_answer = session.verdict.answer
+            broadcast(rule_messages.verdict_message(self._shown_answer), live=True)
+        if session.worth.answer is not self._shown_worth:
+            self._shown_worth = session.worth.answer
+            if self._shown_worth is not None:
+                broadcast(rule_messages.worth_message(self._shown_worth), live=True)
         self._since_live += elapsed
         if self._since_live >= LIVE_SECONDS:
             self._since_live = 0.0
-            self.channel.broadcast(self._live(), live=True)
+            broadcast(rule_messages.live_message(session.world.state), live=True)
 
     def _greet(self, client: Client) -> None:
-        self.channel.send(client, _vocabulary())
-        self.channel.send(client, self._rules())
-        self.channel.send(client, self._live(), live=True)
-        self.channel.send(client, verdict_message(self.session.verdict.answer), live=True)
+        session, send = self.session, self.channel.send
+        send(client, rule_messages.vocabulary_message())
+        send(client, self._rules())
+        send(client, rule_messages.live_message(session.world.state), live=True)
+        send(client, rule_messages.verdict_message(session.verdict.answer), live=True)
+        if session.worth.answer is not None:
+            send(client, rule_messages.worth_message(session.worth.answer), live=True)
 
     def _receive(self, client: Client, message: Message) -> None:
-        before = self.session.document.version
+        kind, version = str(message.get("type")), self.session.document.version
         try:
-            self._carry_out(client, message)
+            if kind not in self._carry_out:
+                raise EditError(f"unknown message {kind!r}")
+            self._carry_out[kind](client, message)
         except (EditError, RuleSetError) as error:
-            self._notice(client, str(error))
-        if self.session.document.version == before:  # the page waits for an answer
-            self.channel.send(client, self._rules())
+            self.channel.send(client, rule_messages.notice_message(str(error)))
+        if kind in _CHANGES and self.session.document.version == version:
+            self.channel.send(client, self._rules())  # the page waits for an answer
 
-    def _carry_out(self, client: Client, message: Message) -> None:
-        session, kind = self.session, message.get("type")
-        if kind == "edit" and isinstance(message.get("edit"), dict):
-            session.edit(message["edit"])
-        elif kind == "undo":
-            session.undo()
-        elif kind == "redo":
-            session.redo()
-        elif kind == "load_preset":
-            session.load_preset(_text(message, "name"))
-        elif kind == "load_text":
-            session.load_text(_text(message, "text"), _text(message, "name"))
-        elif kind == "save":
-            self._save(client, _text(message, "format"))
-        else:
-            raise EditError(f"unknown message {kind!r}")
+    def _rules(self) -> Message:
+        return rule_messages.rules_message(self.session.document, self.session.insight.insight)
 
-    def _save(self, client: Client, form: str) -> None:
+    def _edit(self, _client: Client, message: Message) -> None:
+        edit = message.get("edit")
+        if not isinstance(edit, dict):
+            raise EditError(f"expected an edit, got {edit!r}")
+        self.session.edit(edit)
+
+    def _save(self, client: Client, message: Message) -> None:
+        form = _text(message, "format")
         if form not in FORMATS:
             raise EditError(f"unknown format {form!r}; expected one of {', '.join(FORMATS)}")
         rule_set = self.session.document.rule_set
-        letters = "".join(char if char.isalnum() else "-" for char in rule_set.name.lower())
-        stem = "-".join(filter(None, letters.split("-"))) or "rules"
-        suffix = {"yaml": "yaml", "text": "rules"}[form]
         text = FORMATS[form](rule_set)
-        self.channel.send(client, {"type": "file", "name": f"{stem}.{suffix}", "text": text})
+        self.channel.send(client, rule_messages.file_message(rule_set, text, _SUFFIXES[form]))
 
-    def _notice(self, client: Client, text: str) -> None:
-        self.channel.send(client, {"type": "notice", "level": "error", "text": text})
+    def _check_text(self, client: Client, message: Message) -> None:
+        findings: list[Message] = []
+        try:
+            parse_text(_text(message, "text"))
+        except RuleSetError as error:
+            findings = rule_messages.findings_json(error.findings)
+        self.channel.send(client, {"type": "text_findings", "findings": findings})
 
-    def _rules(self) -> Message:
-        document = self.session.document
-        findings = [
-            {
-                "rule": finding.place.rule,
-                "element": finding.place.element,
-                "message": finding.message,
-                "severity": finding.severity,
-            }
-            for finding in check(document.rule_set)
-        ]
-        return {
-            "type": "rules",
-            "version": document.version,
-            "can_undo": document.can_undo,
-            "can_redo": document.can_redo,
-            "rule_set": rule_set_to_json(document.rule_set),
-            "findings": findings,
-        }
+    def _simplify(self, client: Client, _message: Message) -> None:
+        simplification = simplify(self.session.document.rule_set)
+        version = self.session.document.version
+        self.channel.send(client, rule_messages.simplified_message(version, simplification))
 
-    def _live(self) -> Message:
-        state = self.session.world.state
-        robots = np.bincount(state.behaviour, minlength=len(FORAGING.behaviours))
-        return {
-            "type": "live",
-            "time": state.time,
-            "fired": state.rule_counts.tolist(),
-            "behaviours": robots.tolist(),
-            "robots": len(state.behaviour),
-        }
-
-
-def verdict_message(answer: Answer | None) -> Message:
-    """What is known of the verdict, for pages."""
-    if answer is None:
-        return {"type": "verdict", "version": 0, "busy": True, "samples": [], "comparisons": []}
-    return {
-        "type": "verdict",
-        "version": answer.question.version,
-        "scenario": answer.question.scenario.name,
-        "runs": RUNS,
-        "busy": answer.busy,
-        "samples": [
-            {"role": sample.role, "name": sample.name, "collected": sample.collected.tolist()}
-            for sample in answer.samples
-        ],
-        "comparisons": [
-            {"role": role, **asdict(comparison)}
-            for role, comparison in answer.comparisons().items()
-        ],
-    }
+    def _take_simplified(self, _client: Client, message: Message) -> None:
+        if message.get("version") != self.session.document.version:
+            raise EditError("the rules have changed meanwhile: simplify them again")
+        self.session.simplify()
 
 
 def _text(message: Message, key: str) -> str:
@@ -159,20 +134,3 @@ def _text(message: Message, key: str) -> str:
     if not isinstance(value, str) or len(value) > MAX_TEXT:
         raise EditError(f"{key} must be a text of at most {MAX_TEXT} characters")
     return value
-
-
-def _vocabulary() -> Message:
-    def entry(item: Any, **extra: str) -> dict[str, Any]:
-        return {**vars(item), **extra}
-
-    return {
-        "type": "vocabulary",
-        "preconditions": [entry(item) for item in FORAGING.preconditions],
-        "behaviours": [
-            entry(item, colour=palette.css(palette.behaviour_colour(code)))
-            for code, item in enumerate(FORAGING.behaviours)
-        ],
-        "internal_states": [entry(item) for item in FORAGING.internal_states],
-        "probabilities": list(FORAGING.probabilities),
-        "presets": [{"name": name, "title": load_preset(name).name} for name in preset_names()],
-    }

@@ -6,10 +6,8 @@ difference of means has the interval of paired samples and small effects show.
 
 from __future__ import annotations
 
-import threading
 from collections import OrderedDict
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +16,8 @@ from geswarm.analysis import PairedDifference, paired_difference
 from geswarm.experiment import evaluate_rule_sets
 from geswarm.rules import ControlTable, RuleSet, load_preset
 from geswarm.sim import EvaluationStopped, Scenario
+
+from .background import Newest, Stop
 
 RUNS = 50
 _FIRST_RUNS = 10  # the first look at every sample; then all of them in full
@@ -86,57 +86,29 @@ class Answer:
         return found
 
 
-@dataclass
 class Verdict:
-    """Evaluates one question at a time on a thread of its own; a newer one cancels it.
+    """Answers the newest question, on a thread of its own.
 
     Attributes:
         workers: Threads that simulate.
         answer: To the newest question, replaced as runs come in; None before the first question.
     """
 
-    workers: int = 1
-    answer: Answer | None = None
-    _question: Question | None = None
-    _changed: threading.Condition = field(default_factory=threading.Condition)
-    _thread: threading.Thread | None = None
-    _closed: bool = False
-    _samples: OrderedDict[bytes, npt.NDArray[np.int64]] = field(default_factory=OrderedDict)
+    def __init__(self, workers: int = 1) -> None:
+        self.workers = workers
+        self.answer: Answer | None = None
+        self._samples: OrderedDict[bytes, npt.NDArray[np.int64]] = OrderedDict()
+        self._newest = Newest("verdict", self._answer)
 
     def ask(self, question: Question) -> None:
         """Begin with a question at once; what was under way is dropped."""
-        with self._changed:
-            self._question = question
-            self._changed.notify()
-        if self._thread is None:
-            self._thread = threading.Thread(target=self._work, name="verdict", daemon=True)
-            self._thread.start()
+        self._newest.ask(question)
 
     def close(self) -> None:
         """End the thread."""
-        with self._changed:
-            self._closed = True
-            self._changed.notify()
-        if self._thread is not None:
-            self._thread.join(10)
+        self._newest.close()
 
-    def _work(self) -> None:
-        answered: Question | None = None
-        while True:
-            with self._changed:
-                while self._question is answered and not self._closed:
-                    self._changed.wait()
-                if self._closed:
-                    return
-                question = self._question
-            answered = question
-            if question is not None:
-                self._answer(question)
-
-    def _answer(self, question: Question) -> None:
-        def stop() -> bool:
-            return self._closed or self._question is not question
-
+    def _answer(self, question: Question, stop: Stop) -> None:
         self.answer = Answer(question)
         try:
             for runs in (_FIRST_RUNS, RUNS):
@@ -145,14 +117,12 @@ class Verdict:
             return
         self.answer = Answer(question, self._known(question), busy=False)
 
-    def _run_all(self, question: Question, runs: int, stop: Callable[[], bool]) -> None:
+    def _run_all(self, question: Question, runs: int, stop: Stop) -> None:
         for _, _, rule_set in contestants(question):
             self._run(rule_set, question.scenario, runs, stop)
             self.answer = Answer(question, self._known(question))
 
-    def _run(
-        self, rule_set: RuleSet, scenario: Scenario, runs: int, stop: Callable[[], bool]
-    ) -> None:
+    def _run(self, rule_set: RuleSet, scenario: Scenario, runs: int, stop: Stop) -> None:
         key = _key(rule_set, scenario)
         if len(self._samples.get(key, ())) >= runs:
             self._samples.move_to_end(key)

@@ -1,7 +1,7 @@
 /** One rule in the paper's layout: explanation, then preconditions, behaviours and actions. */
 
 import { ActionChip, BehaviourChip, PreconditionChip, actionChoices } from "./chips.js";
-import { h, icon, iconButton, identify, reconcile } from "./dom.js";
+import { findingLine, h, icon, iconButton, identify, reconcile } from "./dom.js";
 import { makeDraggable } from "./drag.js";
 import { draftField, growing } from "./field.js";
 import { menuButton } from "./menu.js";
@@ -146,8 +146,12 @@ export class RuleCard {
   update(rule, index) {
     this.rule = rule;
     this.index = index;
+    const { rule_set, english = [] } = this.session.state;
+    const last = rule_set.rules.length - 1;
+    const shown = JSON.stringify([rule, index, index === last, this.findingsAt(), english[index]]);
+    if (shown === this.shown && !this.node.querySelector("[data-draft]")) return;
+    this.shown = shown;
     const number = index + 1;
-    const last = this.session.state.rule_set.rules.length - 1;
     identify(this.node, `rule-${number}`, `Rule ${number}`);
     this.node.classList.toggle("off", !rule.enabled);
     this.number.textContent = number;
@@ -157,6 +161,8 @@ export class RuleCard {
     this.toggle.setAttribute("aria-checked", String(rule.enabled));
     identify(this.comment, `rule-${number}-comment`, `Explanation of rule ${number}`);
     this.draft.update(rule.comment);
+    this.english.textContent = english[index] ?? "";
+    identify(this.english, `rule-${number}-english`);
     for (const [name, button] of Object.entries(this.tools)) {
       identify(button, `rule-${number}-${name}`, `${button.title} ${number}`);
     }
@@ -176,6 +182,22 @@ export class RuleCard {
   showRate(rate) {
     const text = rate === null || !this.rule.enabled ? "" : `${rate.toFixed(rate < 9.95 ? 1 : 0)}/min`;
     if (this.rate.textContent !== text) this.rate.textContent = text;
+  }
+
+  /** @param {(name: string, rule: number, part: string, at?: number) => ?Element} bar */
+  showWorth(bar) {
+    const whole = bar(`rule ${this.index + 1}`, this.index, "rule");
+    if (whole) {
+      whole.append(h("span", { class: "worth-words" }, "without this rule"));
+      identify(whole, `rule-${this.index + 1}-worth`);
+    }
+    this.whole.replaceChildren(...(whole ? [whole] : []));
+    for (const row of Object.values(this.rows)) {
+      for (const chip of row.chips) {
+        const { part, singular, index, id } = chip;
+        chip.weigh(bar(`${singular} ${index + 1} of rule ${this.index + 1}`, this.index, part, index), id);
+      }
+    }
   }
 
   #add(part, element) {
@@ -218,7 +240,9 @@ export class RuleCard {
       commit: (comment) => this.edit((rule) => ({ do: "set_comment", rule, comment })),
       changed: wrapper.fit,
     });
-    return h("div", { class: "heading" }, wrapper.node);
+    this.english = h("p", { class: "english" });
+    this.whole = h("div", { class: "whole" });
+    return h("div", { class: "heading" }, wrapper.node, this.english, this.whole);
   }
 
   #tools() {
@@ -228,14 +252,33 @@ export class RuleCard {
       duplicate: iconButton("duplicate", "Duplicate rule", () => this.duplicate()),
       delete: iconButton("trash", "Delete rule", () => this.remove()),
     };
-    return h("div", { class: "tools" }, ...Object.values(this.tools));
+    const toggle = () => {
+      this.node.classList.toggle("show-hints");
+      this.#showFindings();
+    };
+    this.hints = h("button", { type: "button", class: "tool hints" });
+    this.hints.addEventListener("click", toggle);
+    return h("div", { class: "tools" }, this.hints, ...Object.values(this.tools));
   }
 
+  /** Hints are true but harmless: they wait behind a button. */
   #showFindings() {
-    const lines = this.findingsAt().map(({ element, message, severity }) =>
-      h("li", { class: severity }, icon("warning"), element ? `${element}: ${message}` : message),
+    const all = this.findingsAt();
+    const hints = all.filter((finding) => finding.severity === "hint").map(sayFinding);
+    const open = this.node.classList.contains("show-hints");
+    const shown = open ? all : all.filter((finding) => finding.severity !== "hint");
+    this.findings.replaceChildren(
+      ...shown.map((finding) => findingLine(finding.severity, sayFinding(finding))),
     );
-    this.findings.replaceChildren(...lines);
-    this.findings.hidden = lines.length === 0;
+    this.findings.hidden = shown.length === 0;
+    this.hints.replaceChildren(icon("hint"), String(hints.length));
+    this.hints.hidden = hints.length === 0;
+    this.hints.title = hints.join("\n");
+    this.hints.setAttribute("aria-expanded", String(open));
+    const number = this.index + 1;
+    const label = `Hints on rule ${number}: ${hints.length}`;
+    identify(this.hints, `rule-${number}-hints`, label);
   }
 }
+
+const sayFinding = ({ element, message }) => (element ? `${element}: ${message}` : message);

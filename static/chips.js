@@ -47,9 +47,21 @@ class Chip {
     identify(this.node, this.id, where);
     identify(this.removeButton, `${this.id}-remove`, `Remove ${where}`);
     const findings = this.card.findingsAt(`${this.singular} ${index + 1}`);
-    this.node.classList.toggle("has-warning", findings.length > 0);
+    const serious = findings.some((finding) => finding.severity !== "hint");
+    this.node.classList.toggle("has-warning", serious);
+    this.node.classList.toggle("has-hint", findings.length > 0 && !serious);
     this.node.title = findings.map((finding) => finding.message).join("\n");
     this.show(item, where);
+  }
+
+  /** @param {?Element} bar What this element is worth; null to show nothing. */
+  weigh(bar, id) {
+    this.bar?.remove();
+    this.bar = bar;
+    this.node.classList.toggle("weighed", bar !== null);
+    if (!bar) return;
+    identify(bar, `${id}-worth`);
+    this.node.append(bar);
   }
 
   paint(behaviour) {

@@ -34,19 +34,26 @@ const PATHS = {
   open: "M2.6 12.4V3.6h3.6l1.4 1.6h5.8v7.2z",
   save: "M8 2.8v6.8M5 6.8l3 3 3-3M3 12.8h10",
   warning: "M8 2.8l5.8 10.2H2.2zM8 6.6v3M8 11.3v.2",
+  hint: "M8 2.4a5.6 5.6 0 100 11.2A5.6 5.6 0 008 2.4M8 7.4v3.4M8 5.1v.2",
+  fold: "M4.4 9.6L8 6l3.6 3.6",
 };
+
+/**
+ * @param {string} tag
+ * @param {object} attributes
+ * @param {...SVGElement} children
+ */
+export function svg(tag, attributes = {}, ...children) {
+  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
 
 /** @param {keyof PATHS} name */
 export function icon(name) {
-  const space = "http://www.w3.org/2000/svg";
-  const svg = document.createElementNS(space, "svg");
-  svg.setAttribute("viewBox", "0 0 16 16");
-  svg.setAttribute("class", "icon");
-  svg.setAttribute("aria-hidden", "true");
-  const path = document.createElementNS(space, "path");
-  path.setAttribute("d", PATHS[name]);
-  svg.append(path);
-  return svg;
+  const attributes = { viewBox: "0 0 16 16", class: "icon", "aria-hidden": "true" };
+  return svg("svg", attributes, svg("path", { d: PATHS[name] }));
 }
 
 /** A button with an icon; its label is what assistive technology and the tooltip say. */
@@ -117,4 +124,14 @@ export function reconcile(parent, old, items, create) {
     part.key = keys[i];
   });
   return parts;
+}
+
+/**
+ * One line of the list of findings.
+ *
+ * @param {import("./protocol.js").Severity} severity
+ * @param {...(Node | string)} words
+ */
+export function findingLine(severity, ...words) {
+  return h("li", { class: severity }, icon(severity === "hint" ? "hint" : "warning"), h("span", {}, ...words));
 }

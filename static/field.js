@@ -46,7 +46,8 @@ export function draftField(input, { tidy, commit, problem = () => null, changed 
   input.addEventListener("input", refresh);
   input.addEventListener("blur", () => isRendering() || tryCommit());
   input.addEventListener("connectionlost", () => (sent = null));
-  input.addEventListener("resend", () => input !== document.activeElement && tryCommit());
+  const typing = () => input === document.activeElement && !("cell" in input.dataset);
+  input.addEventListener("resend", () => typing() || tryCommit());
   input.addEventListener("keydown", (event) => {
     if (event.isComposing) return;
     if (event.key === "Enter" && !event.shiftKey) {

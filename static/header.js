@@ -28,9 +28,9 @@ export class Header {
    * @param {Element} root
    * @param {import("./session.js").Session} session
    * @param {import("./notices.js").Notices} notices
-   * @param {Element} live The live figures, shown under the title.
+   * @param {...Element} below Shown under the title.
    */
-  constructor(root, session, notices, live) {
+  constructor(root, session, notices, ...below) {
     this.session = session;
     this.notices = notices;
     this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => session.command({ type: "undo" }));
@@ -40,7 +40,7 @@ export class Header {
     this.origin = h("div", { class: "origin", "data-testid": "origin" });
     const title = h("div", { class: "title" }, this.#name(), this.origin);
     const actions = h("div", { class: "actions" }, this.undo, this.redo, ...this.#files());
-    root.append(h("div", { class: "title-bar" }, title, actions), live);
+    root.append(h("div", { class: "title-bar" }, title, actions), ...below);
   }
 
   /** @param {import("./protocol.js").RulesMessage} message */

@@ -1,14 +1,17 @@
 /** Keys that work anywhere on the page. */
 
-const isText = (node) => node.matches?.("textarea, input[type=text]");
+import { isEditing, isText } from "./grid.js";
 
 /**
  * @param {import("./session.js").Session} session
  * @param {import("./table.js").RuleTable} table
+ * @param {import("./grid.js").Grid} grid
+ * @param {import("./dialog.js").Help} help
  */
-export function listenToKeys(session, table) {
+export function listenToKeys(session, table, grid, help) {
   document.addEventListener("keydown", (event) => {
-    const act = wholePage(event, session) ?? withinRule(event, table);
+    if (event.defaultPrevented || event.target.closest?.("dialog")) return;
+    const act = wholePage(event, session) ?? withinRule(event, table) ?? elsewhere(event, grid, help);
     if (!act) return;
     event.preventDefault();
     act();
@@ -33,8 +36,16 @@ function withinRule(event, table) {
   if (event.altKey && event.key === "ArrowUp") return () => card.move(-1);
   if (event.altKey && event.key === "ArrowDown") return () => card.move(1);
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d") return () => card.duplicate();
-  if (event.key !== "Delete" || isText(event.target)) return null;
+  if (event.key !== "Delete" || isEditing(event.target)) return null;
   const chips = Object.values(card.rows).flatMap((row) => row.chips);
   const chip = chips.find((candidate) => candidate.node.contains(event.target));
-  return chip ? () => chip.remove() : null;
+  if (chip) return () => chip.remove();
+  return event.target.closest(".part") ? null : () => card.remove();
+}
+
+function elsewhere(event, grid, help) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return null;
+  if (event.key === "?" && !isEditing(event.target)) return () => help.open();
+  if (event.key === "ArrowDown" && event.target.id === "tab-table") return () => grid.enter();
+  return null;
 }

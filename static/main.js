@@ -1,23 +1,53 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
-import { Header, download } from "./header.js";
+import { ChangesTab } from "./changes.js";
+import { listenToClipboard } from "./clipboard.js";
+import { Help, Simplify } from "./dialog.js";
+import { h } from "./dom.js";
 import { tellDrafts } from "./field.js";
+import { Grid } from "./grid.js";
+import { Header, download } from "./header.js";
 import { listenToKeys } from "./keyboard.js";
 import { Live } from "./live.js";
 import { Notices } from "./notices.js";
 import { Session } from "./session.js";
 import { Socket, socketAddress } from "./socket.js";
 import { RuleTable } from "./table.js";
+import { Tabs } from "./tabs.js";
+import { TextTab } from "./text.js";
+import { Verdict } from "./verdict.js";
+import { Worth } from "./worth.js";
 
-const notices = new Notices(document.getElementById("notices"));
+const element = (id) => document.getElementById(id);
+const notices = new Notices(element("notices"));
 const session = new Session(
   (message) => socket.send(message),
   () => socket.open,
   () => notices.stress(),
 );
 const live = new Live();
-const header = new Header(document.getElementById("header"), session, notices, live.node);
-const table = new RuleTable(document.getElementById("table"), session);
+const verdict = new Verdict();
+const table = new RuleTable(element("table"), session);
+const grid = new Grid(element("table"), table);
+const worth = new Worth(session, table);
+const simplify = new Simplify(session);
+const help = new Help();
+const text = new TextTab(element("text"), session, (draft) => tabs.badge("text", draft ? "edited" : ""));
+const changes = new ChangesTab(element("changes"), session, (count) => tabs.badge("changes", count || ""));
+const tabs = new Tabs(
+  [
+    {
+      id: "table",
+      label: "Table",
+      panel: element("table"),
+      tools: [worth.node, simplify.button, wordsSwitch()],
+    },
+    { id: "text", label: "Text", panel: element("text"), tools: text.tools, shown: () => text.shown() },
+    { id: "changes", label: "Changes", panel: element("changes"), tools: [changes.back], shown: () => changes.shown() },
+  ],
+  help.button,
+);
+const header = new Header(element("header"), session, notices, live.node, verdict.node, tabs.node, worth.legend);
 let resend = false;
 
 const handlers = {
@@ -25,20 +55,33 @@ const handlers = {
     session.vocabulary = message;
     live.name(message);
   },
-  rules(message) {
-    session.state = message;
+  rules(received) {
+    session.receive(received);
+    const message = session.state;
     header.update(message);
     live.rulesChanged(message.rule_set.rules);
+    verdict.rulesChanged(message);
     table.update(message);
+    worth.rulesChanged(message);
+    grid.restore();
+    simplify.rulesChanged(message);
+    text.update(message);
+    changes.update(message);
     session.settled();
     if (resend) tellDrafts("resend");
     resend = false;
   },
   live: (message) => live.update(message, table.cards),
+  verdict: (message) => verdict.update(message),
+  worth: (message) => worth.update(message),
+  simplified: (message) => simplify.offer(message),
+  text_findings: (message) => text.showFindings(message),
   file: download,
-  notice({ level, text }) {
-    notices.show(level, text);
-    if (level === "error") session.settled();
+  notice({ level, text: words }) {
+    notices.show(level, words);
+    if (level !== "error") return;
+    text.refused();
+    session.settled();
   },
 };
 
@@ -53,4 +96,16 @@ const socket = new Socket(socketAddress(), {
   message: (message) => handlers[message.type]?.(message),
 });
 
-listenToKeys(session, table);
+listenToKeys(session, table, grid, help);
+listenToClipboard(session, table, notices);
+
+/** A switch that shows every rule as a sentence as well. */
+function wordsSwitch() {
+  const attributes = { type: "button", class: "quiet", "aria-pressed": "false", "data-testid": "in-words" };
+  const button = h("button", { ...attributes, title: "Show every rule as a sentence" }, "In words");
+  button.addEventListener("click", () => {
+    const on = element("table").classList.toggle("in-words");
+    button.setAttribute("aria-pressed", String(on));
+  });
+  return button;
+}

@@ -22,7 +22,8 @@
  * @property {?number} fitness
  *
  * @typedef {{name: string, comment: string, origin: Origin, rules: Rule[]}} RuleSet
- * @typedef {{rule: ?number, element: string, message: string, severity: "error" | "warning"}} Finding
+ * @typedef {"error" | "warning" | "hint"} Severity A hint is true but harmless.
+ * @typedef {{rule: ?number, element: string, message: string, severity: Severity}} Finding
  *
  * @typedef {object} RulesMessage
  * @property {"rules"} type
@@ -31,6 +32,13 @@
  * @property {boolean} can_redo
  * @property {RuleSet} rule_set
  * @property {Finding[]} findings
+ * @property {string[]} [english] Each rule as a sentence.
+ * @property {string} [text] The rule set in the rule language.
+ * @property {string[]} [rule_texts] Each rule in the rule language.
+ * @property {RuleSet} [loaded] The version loaded last.
+ * @property {string} [loaded_text] The same in the rule language.
+ * @property {number} [simpler] Elements that can go without changing the behaviour; absent while
+ *   unknown.
  *
  * @typedef {object} Vocabulary
  * @property {{name: string, holds: string, fails: string}[]} preconditions
@@ -46,12 +54,57 @@
  * @property {number[]} behaviours Robots in each behaviour, in the order of the vocabulary.
  * @property {number} robots
  *
+ * @typedef {"current" | "before" | "evo8" | "hand-coded"} Role
+ * @typedef {{role: Role, name: string, collected: number[]}} Sample Collected objects of each run.
+ *
+ * @typedef {object} Comparison Mean of the current rules minus mean of the other's, same seeds.
+ * @property {Role} role The other rules.
+ * @property {number} difference
+ * @property {number} low Ends of the 95 % interval.
+ * @property {number} high
+ * @property {?number} p_value
+ *
+ * @typedef {object} VerdictMessage
+ * @property {"verdict"} type
+ * @property {number} version
+ * @property {string} scenario
+ * @property {number} runs How many there will be in each sample.
+ * @property {boolean} busy
+ * @property {Sample[]} samples
+ * @property {Comparison[]} comparisons
+ *
+ * @typedef {object} Piece Mean without the piece minus mean with it, and its 95 % interval.
+ * @property {number} rule
+ * @property {"rule" | Part} part
+ * @property {?number} at
+ * @property {number} difference
+ * @property {number} low
+ * @property {number} high
+ *
+ * @typedef {object} WorthMessage
+ * @property {"worth"} type
+ * @property {number} version
+ * @property {boolean} busy
+ * @property {number} done
+ * @property {number} total
+ * @property {Piece[]} pieces
+ *
+ * @typedef {object} SimplifiedMessage
+ * @property {"simplified"} type
+ * @property {number} version
+ * @property {RuleSet} rule_set
+ * @property {string} text
+ * @property {string[]} removed
+ *
+ * @typedef {Finding & {line: ?number}} TextFinding
+ * @typedef {{type: "text_findings", findings: TextFinding[]}} TextFindingsMessage
+ *
  * @typedef {{type: "file", name: string, text: string}} FileMessage
  * @typedef {{type: "notice", level: "error" | "info", text: string}} NoticeMessage
  *
  * @typedef {object} Edit
  * @property {string} do add_rule, remove_rule, duplicate_rule, move_rule, set_enabled, set_comment,
- *   set_name, add, set or remove; the other fields depend on it.
+ *   set_name, add, set, remove or paste_rules; the other fields depend on it.
  */
 
 export {};

@@ -1,6 +1,7 @@
 /** What the server last said, and the edits on their way to it. */
 
 const PATIENCE = 3000;
+const ANSWERED = new Set(["edit", "set_text", "take_simplified"]);
 
 export class Session {
   /** @type {?import("./protocol.js").Vocabulary} */
@@ -19,6 +20,22 @@ export class Session {
     this.send = send;
     this.connected = connected;
     this.unsent = unsent;
+  }
+
+  /**
+   * Take what the server says of the rules.
+   *
+   * While it has not looked at the new rules yet (`simpler` is absent), the old findings stay, so
+   * that they do not flicker at every edit.
+   *
+   * @param {import("./protocol.js").RulesMessage} message
+   */
+  receive(message) {
+    const before = this.state;
+    this.state = message;
+    if (!before || message.simpler !== undefined) return;
+    const findings = message.findings.length ? message.findings : carryOver(before, message);
+    this.state = { ...message, findings, simpler: before.simpler };
   }
 
   /**
@@ -79,6 +96,19 @@ export class Session {
   #go(make) {
     const message = make();
     if (!message || !this.send(message)) return;
-    if (message.type === "edit") this.#timer = setTimeout(() => this.settled(), PATIENCE);
+    if (ANSWERED.has(message.type)) this.#timer = setTimeout(() => this.settled(), PATIENCE);
   }
+}
+
+/** Findings on other rules than before, at the places where those rules are now. */
+function carryOver(before, after) {
+  const [old, now] = [before, after].map(({ rule_set }) => rule_set.rules.map((rule) => JSON.stringify(rule)));
+  const place = (at) => {
+    if (now[at] === old[at]) return at;
+    const moved = now.indexOf(old[at]);
+    return moved < 0 && now.length === old.length ? at : moved;
+  };
+  return before.findings
+    .map((finding) => (finding.rule ? { ...finding, rule: place(finding.rule - 1) + 1 } : finding))
+    .filter(({ rule }) => rule !== 0);
 }

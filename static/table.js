@@ -1,7 +1,7 @@
 /** The rules in their order. */
 
 import { RuleCard } from "./card.js";
-import { h, icon, keepingFocus, reconcile } from "./dom.js";
+import { findingLine, h, icon, keepingFocus, reconcile } from "./dom.js";
 
 const GLIDE = { duration: 180, easing: "ease-out" };
 const EMPTY_RULE = { comment: "", enabled: true, preconditions: [], behaviours: [], actions: [] };
@@ -35,7 +35,7 @@ export class RuleTable {
       this.cards = reconcile(this.list, this.cards, rules, () => new RuleCard(this.session));
       const general = findings.filter((finding) => !finding.rule);
       this.general.replaceChildren(
-        ...general.map(({ message, severity }) => h("li", { class: severity }, icon("warning"), message)),
+        ...general.map(({ message, severity }) => findingLine(severity, message)),
       );
       this.general.hidden = general.length === 0;
     });

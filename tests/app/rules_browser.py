@@ -48,3 +48,12 @@ def sees_edit(page, server, edit):
             return
         page.wait_for_timeout(20)
     assert server.edits[-1:] == [edit]
+
+
+def tells(page, server, message):
+    """Wait until the last message that reached the server is this one."""
+    for _ in range(100):
+        if server.received and server.received[-1] == message:
+            return
+        page.wait_for_timeout(20)
+    assert server.received[-1:] == [message]

@@ -3,6 +3,7 @@
 import asyncio
 import json
 import threading
+from dataclasses import replace
 from http import HTTPStatus
 from pathlib import Path
 
@@ -15,11 +16,14 @@ from geswarm.app.document import RuleDocument
 from geswarm.rules import (
     FORAGING,
     EditError,
+    RuleSet,
     RuleSetError,
     apply_edit,
     check,
+    format_text,
     format_yaml,
     load_preset,
+    parse_text,
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
@@ -40,10 +44,13 @@ class RulesServer:
 
     Attributes:
         answering: While False, messages are recorded but neither applied nor answered.
+        simpler: What the page is told could be simplified away; taking it removes the last rule.
     """
 
     def __init__(self, port=0):
         self.document = RuleDocument(load_preset("evo8"))
+        self.loaded = self.document.rule_set
+        self.simpler = 0
         self.received = []
         self.answering = True
         self.port = port
@@ -89,7 +96,43 @@ class RulesServer:
     def show(self, rule_set):
         """Another page loads a rule set."""
         self.document.replace(rule_set)
+        self.loaded = rule_set
         self.push(self.rules())
+
+    def verdict(self, current, busy=False, runs=50, comparisons=(), version=None, **others):
+        """Figures of these rules and of others, by role; a comparison is (role, difference, low,
+        high, p)."""
+        names = {"current": "these rules", "before": "before the edit", "evo8": "EVO 8"}
+        samples = {"current": current, **others}
+        fields = ("role", "difference", "low", "high", "p_value")
+        self.push(
+            {
+                "type": "verdict",
+                "version": self.document.version if version is None else version,
+                "scenario": "paper",
+                "runs": runs,
+                "busy": busy,
+                "samples": [
+                    {"role": role, "name": names.get(role, role), "collected": list(collected)}
+                    for role, collected in samples.items()
+                ],
+                "comparisons": [dict(zip(fields, row, strict=True)) for row in comparisons],
+            }
+        )
+
+    def worth(self, pieces, busy=False, total=None):
+        """What pieces are worth: (rule, part, at, difference, low, high) each."""
+        fields = ("rule", "part", "at", "difference", "low", "high")
+        self.push(
+            {
+                "type": "worth",
+                "version": self.document.version,
+                "busy": busy,
+                "done": len(pieces),
+                "total": len(pieces) if total is None else total,
+                "pieces": [dict(zip(fields, piece, strict=True)) for piece in pieces],
+            }
+        )
 
     def live(self, time, fired, behaviours=(2, 1, 1)):
         self.push(
@@ -103,6 +146,7 @@ class RulesServer:
         )
 
     def rules(self):
+        rules = self.document.rule_set.rules
         findings = [
             {
                 "rule": found.place.rule,
@@ -119,6 +163,12 @@ class RulesServer:
             "can_redo": self.document.can_redo,
             "rule_set": rule_set_to_json(self.document.rule_set),
             "findings": findings,
+            "english": [f"Sentence of rule {n}." for n, _ in enumerate(rules, start=1)],
+            "text": format_text(self.document.rule_set),
+            "rule_texts": [rule_text(rule) for rule in rules],
+            "loaded": rule_set_to_json(self.loaded),
+            "loaded_text": format_text(self.loaded),
+            "simpler": self.simpler,
         }
 
     def _run(self):
@@ -151,6 +201,11 @@ class RulesServer:
         match message:
             case {"type": "edit", "version": version} if version != self.document.version:
                 self.push({"type": "notice", "level": "error", "text": f"stale {version}"})
+            case {"type": "edit", "edit": {"do": "paste_rules", "at": at, "text": text}}:
+                rules = self.document.rule_set.rules
+                pasted = parse_text(text).rules
+                rules = (*rules[:at], *pasted, *rules[at:])
+                self.document.replace(replace(self.document.rule_set, rules=rules))
             case {"type": "edit", "edit": edit}:
                 try:
                     self.document.replace(apply_edit(self.document.rule_set, edit))
@@ -162,6 +217,7 @@ class RulesServer:
                 self.document.redo()
             case {"type": "load_preset", "name": name}:
                 self.document.replace(load_preset(name))
+                self.loaded = self.document.rule_set
             case {"type": "load_text", "name": name, "text": text}:
                 try:
                     self.document.replace(read_rule_set(text, name))
@@ -171,7 +227,55 @@ class RulesServer:
                 text = format_yaml(self.document.rule_set)
                 self.push({"type": "file", "name": "evo8.yaml", "text": text})
                 return
+            case {"type": "check_text", "text": text}:
+                self.push({"type": "text_findings", "findings": text_findings(text)})
+                return
+            case {"type": "set_text", "text": text}:
+                self.document.replace(parse_text(text))
+            case {"type": "simplify"}:
+                self.push(self.simplified())
+                return
+            case {"type": "take_simplified"}:
+                self.document.replace(self.shorter())
+                self.simpler = 0
+            case {"type": "worth_start"} | {"type": "worth_cancel"}:
+                return
         self.push(self.rules())
+
+    def shorter(self):
+        rule_set = self.document.rule_set
+        return replace(rule_set, rules=rule_set.rules[:-1])
+
+    def simplified(self):
+        return {
+            "type": "simplified",
+            "version": self.document.version,
+            "rule_set": rule_set_to_json(self.shorter()),
+            "text": format_text(self.shorter()),
+            "removed": [f"rule {len(self.document.rule_set.rules)}"],
+        }
+
+
+def rule_text(rule):
+    text = format_text(RuleSet((rule,)))
+    return text.split("\n", 2)[2]
+
+
+def text_findings(text):
+    try:
+        parse_text(text)
+    except RuleSetError as error:
+        return [
+            {
+                "line": found.place.line,
+                "rule": found.place.rule,
+                "element": found.place.element,
+                "message": found.message,
+                "severity": found.severity,
+            }
+            for found in error.findings
+        ]
+    return []
 
 
 def vocabulary():

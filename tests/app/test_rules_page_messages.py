@@ -122,14 +122,38 @@ def test_findings_are_shown_at_their_element(page, server):
     element = {"name": "ON_NEST", "holds": False}
     edit = {"do": "add", "rule": 1, "part": "preconditions", "at": 1, "element": element}
     server.change(edit)
-    expect(page.get_by_test_id("rule-2")).to_contain_text("cannot be both true and false")
+    expect(page.get_by_test_id("rule-2")).to_contain_text("contradicts precondition 1")
     expect(page.get_by_test_id("rule-2-precondition-2")).to_have_class(
         "chip precondition has-warning"
     )
     server.change({"do": "remove", "rule": 1, "part": "preconditions", "at": 1})
-    expect(page.get_by_test_id("rule-2")).not_to_contain_text("cannot be both")
+    expect(page.get_by_test_id("rule-2")).not_to_contain_text("contradicts")
     server.show(RuleSet())
     expect(page.get_by_text("robots only walk")).to_be_visible()
+
+
+def test_findings_do_not_flicker_while_new_ones_are_awaited(page, server):
+    message = server.rules()
+    rules = message["rule_set"]["rules"]
+    places = [(1, "of rule 1"), (2, "of rule 2"), (None, "of all")]
+    found = [
+        {"rule": rule, "element": "", "message": text, "severity": "warning"}
+        for rule, text in places
+    ]
+    server.push({**message, "findings": found, "simpler": 2})
+    expect(page.get_by_test_id("rule-2")).to_contain_text("of rule 2")
+    swapped = {**message["rule_set"], "rules": [rules[1], rules[0], *rules[2:]]}
+    later = {**message, "rule_set": swapped, "findings": [], "version": 2}
+    del later["simpler"]
+    server.push(later)
+    expect(page.get_by_test_id("rule-1")).to_contain_text("of rule 2")
+    expect(page.get_by_test_id("rule-2")).to_contain_text("of rule 1")
+    expect(page.get_by_text("of all")).to_be_visible()
+    expect(page.get_by_test_id("simplify")).to_have_text("Simplify (−2)")
+    server.push({**later, "simpler": 0})
+    expect(page.get_by_test_id("rule-1")).not_to_contain_text("of rule 2")
+    expect(page.get_by_text("of all")).to_have_count(0)
+    expect(page.get_by_test_id("simplify")).to_be_hidden()
 
 
 def test_rules_that_fire_glow_and_rates_are_per_robot_and_minute(page, server):

@@ -1,0 +1,155 @@
+"""What the rule table page is told, as JSON values (see static/protocol.js)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from geswarm.rules import (
+    FORAGING,
+    Finding,
+    RuleSet,
+    Simplification,
+    describe,
+    format_text,
+    load_preset,
+    preset_names,
+)
+from geswarm.rules.as_json import rule_set_to_json
+from geswarm.rules.text import format_rule
+from geswarm.sim import WorldState
+
+from . import palette
+from .channel import Message
+from .document import RuleDocument
+from .insight import Insight
+from .verdict import RUNS, Answer
+from .worth import WorthAnswer
+
+
+def vocabulary_message() -> Message:
+    """The names that rules are made of, with their colours, and the presets."""
+
+    def entry(item: Any, **extra: str) -> dict[str, Any]:
+        return {**vars(item), **extra}
+
+    return {
+        "type": "vocabulary",
+        "preconditions": [entry(item) for item in FORAGING.preconditions],
+        "behaviours": [
+            entry(item, colour=palette.css(palette.behaviour_colour(code)))
+            for code, item in enumerate(FORAGING.behaviours)
+        ],
+        "internal_states": [entry(item) for item in FORAGING.internal_states],
+        "probabilities": list(FORAGING.probabilities),
+        "presets": [{"name": name, "title": load_preset(name).name} for name in preset_names()],
+    }
+
+
+def rules_message(document: RuleDocument, insight: Insight | None) -> Message:
+    """The rules as they stand, in all their forms, with what is known of them so far."""
+    rule_set = document.rule_set
+    known: Message = {"findings": []}
+    if insight is not None and insight.version == document.version:
+        known = {
+            "findings": findings_json(insight.findings),
+            "simpler": len(insight.simplification.removed),
+        }
+    return {
+        "type": "rules",
+        "version": document.version,
+        "can_undo": document.can_undo,
+        "can_redo": document.can_redo,
+        "rule_set": rule_set_to_json(rule_set),
+        "english": describe(rule_set),
+        "text": format_text(rule_set),
+        "rule_texts": [format_rule(rule) for rule in rule_set.rules],
+        "loaded": rule_set_to_json(document.loaded),
+        "loaded_text": format_text(document.loaded),
+        **known,
+    }
+
+
+def simplified_message(version: int, simplification: Simplification) -> Message:
+    """The shortest rules that behave as those of a version, and what they leave out."""
+    return {
+        "type": "simplified",
+        "version": version,
+        "rule_set": rule_set_to_json(simplification.rule_set),
+        "text": format_text(simplification.rule_set),
+        "removed": list(simplification.removed),
+    }
+
+
+def findings_json(findings: Iterable[Finding]) -> list[Message]:
+    """Findings with their places; rules count from 1."""
+    return [
+        {
+            "line": finding.place.line,
+            "rule": finding.place.rule,
+            "element": finding.place.element,
+            "message": finding.message,
+            "severity": finding.severity,
+        }
+        for finding in findings
+    ]
+
+
+def live_message(state: WorldState) -> Message:
+    """What the swarm does now."""
+    robots = np.bincount(state.behaviour, minlength=len(FORAGING.behaviours))
+    return {
+        "type": "live",
+        "time": state.time,
+        "fired": state.rule_counts.tolist(),
+        "behaviours": robots.tolist(),
+        "robots": len(state.behaviour),
+    }
+
+
+def verdict_message(answer: Answer | None) -> Message:
+    """What is known of the verdict."""
+    if answer is None:
+        return {"type": "verdict", "version": 0, "busy": True, "samples": [], "comparisons": []}
+    return {
+        "type": "verdict",
+        "version": answer.question.version,
+        "scenario": answer.question.scenario.name,
+        "runs": RUNS,
+        "busy": answer.busy,
+        "samples": [
+            {"role": sample.role, "name": sample.name, "collected": sample.collected.tolist()}
+            for sample in answer.samples
+        ],
+        "comparisons": [
+            {"role": role, **asdict(comparison)}
+            for role, comparison in answer.comparisons().items()
+        ],
+    }
+
+
+def worth_message(answer: WorthAnswer) -> Message:
+    """What is known of the worth of each piece."""
+    return {
+        "type": "worth",
+        "version": answer.version,
+        "busy": answer.busy,
+        "done": len(answer.worths),
+        "total": answer.total,
+        "pieces": [{**asdict(worth.piece), **asdict(worth.change)} for worth in answer.worths],
+    }
+
+
+def notice_message(text: str) -> Message:
+    """Something that could not be done."""
+    return {"type": "notice", "level": "error", "text": text}
+
+
+def file_message(rule_set: RuleSet, text: str, suffix: str) -> Message:
+    """A file to download, named after the rule set."""
+    letters = "".join(char if char.isalnum() else "-" for char in rule_set.name.lower())
+    stem = "-".join(filter(None, letters.split("-"))) or "rules"
+    return {"type": "file", "name": f"{stem}.{suffix}", "text": text}
