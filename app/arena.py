@@ -1,23 +1,20 @@
-"""The live 3D arena: a panel that draws one world and follows it."""
+"""A 3D arena: draws one world and follows it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
+from typing import TypeAlias
 
 import numpy as np
 import viser
 
 from . import palette
-from .camera import FIELD_OF_VIEW, NEAREST, CameraPose, framing
 from .footbot import footbot, puck, yaw_quaternions
 from .palette import Colour
-from .scenery import ArenaShape, draw_backdrop, draw_scenery, outer_points
+from .scenery import ArenaShape, draw_scenery
 from .shapes import Mesh
-from .view import ArenaView
-
-ROOT = "/arena"
+from .view import ArenaView, Kind
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)
@@ -41,11 +38,6 @@ class RobotHandles:
         """The batches that follow position and heading."""
         return self.bodies, self.trims, self.leds, self.carried
 
-    @property
-    def clickable(self) -> tuple[viser.BatchedMeshHandle, ...]:
-        """The batches that are the robot itself."""
-        return self.bodies, self.trims, self.leds
-
     def remove(self) -> None:
         """Take all robots from the screen."""
         for part in (self.shadows, self.glows, *self.posed):
@@ -61,48 +53,54 @@ class ArenaHandles:
     objects: viser.BatchedMeshHandle | None = None
 
 
+OnMade: TypeAlias = Callable[[Kind, tuple[viser.BatchedMeshHandle, ...]], None]
+
+
 class Arena:
     """Draws a scenario once and a view of its world as often as wanted.
 
     Args:
-        on_robot_click: Called with the robot's index when it is clicked, from a thread of viser's.
+        root: Node of the scene that everything of it is below.
+        on_made: Called with the batches that are the robots, or the objects, whenever new ones
+            have been made; instance i is number i.
     """
 
-    def __init__(self, on_robot_click: Callable[[int], None] | None = None) -> None:
-        self.on_robot_click = on_robot_click
+    def __init__(self, root: str = "/arena", on_made: OnMade | None = None) -> None:
+        self.root = root
+        self.on_made = on_made
         self.handles: ArenaHandles | None = None
-        self._poses: WeakKeyDictionary[viser.ClientHandle, CameraPose] = WeakKeyDictionary()
 
-    def build(self, server: viser.ViserServer, shape: ArenaShape) -> None:
-        """Draw the scenario; robots and objects appear with the first `sync`."""
-        self._server = server
-        draw_backdrop(server.scene)
-        self.rebuild(shape)
-        server.on_client_connect(self._welcome)
+    def build(
+        self, scene: viser.SceneApi, shape: ArenaShape, at: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """Draw a scenario, instead of the one drawn before if there is one.
 
-    def rebuild(self, shape: ArenaShape) -> None:
-        """Draw another scenario instead, without robots or objects, and turn all cameras to it."""
-        self._shape = shape
-        self._usual_pose = pose = framing(outer_points(shape))
-        camera = self._server.initial_camera
-        with self._server.atomic():
-            if self.handles is not None:
-                self.handles.root.remove()
-            root = self._server.scene.add_frame(ROOT, show_axes=False)
-            self.handles = ArenaHandles(root)
-            draw_scenery(self._server.scene, ROOT, shape)
-            camera.fov, camera.near = FIELD_OF_VIEW, NEAREST
-            camera.position, camera.look_at = pose.position, pose.look_at
-        for client in self._server.get_clients().values():
-            self._aim(client)
+        Robots and objects appear with the next `sync`.
+
+        Args:
+            scene: Where to draw.
+            shape: Arena, zones and light.
+            at: Where the centre of the arena is in the scene, metres.
+        """
+        self.remove()
+        self._scene = scene
+        self.handles = ArenaHandles(
+            scene.add_frame(self.root, show_axes=False, position=(*at, 0.0))
+        )
+        draw_scenery(scene, self.root, shape)
+
+    def remove(self) -> None:
+        """Take everything from the screen."""
+        if self.handles is not None:
+            self.handles.root.remove()
+            self.handles = None
 
     def sync(self, view: ArenaView) -> None:
         """Show a view: assigns to the batches, and makes new ones only if counts have changed."""
         if self.handles is None:
             raise RuntimeError("Arena.sync: expected build() to be called before")
-        with self._server.atomic():
-            self._sync_robots(self.handles, view)
-            self._sync_objects(self.handles, view)
+        self._sync_robots(self.handles, view)
+        self._sync_objects(self.handles, view)
 
     def _sync_robots(self, handles: ArenaHandles, view: ArenaView) -> None:
         count = len(view.x)
@@ -131,6 +129,8 @@ class Arena:
                 handles.objects.remove()
             new = self._batch("objects", puck(), count, palette.OBJECT) if count else None
             handles.objects = new
+            if new is not None:
+                self._tell("object", (new,))
         if handles.objects is not None:
             positions = np.zeros((count, 3), dtype=np.float32)
             positions[:, :2] = view.objects
@@ -146,16 +146,18 @@ class Arena:
             leds=self._batch("leds", look.leds, count, _TRIM),
             carried=self._batch("carried", look.carried, count, palette.OBJECT),
         )
-        if self.on_robot_click is not None:
-            for part in robots.clickable:
-                part.on_click(self._clicked)
+        self._tell("robot", robots.posed)
         return robots
+
+    def _tell(self, kind: Kind, batches: tuple[viser.BatchedMeshHandle, ...]) -> None:
+        if self.on_made is not None:
+            self.on_made(kind, batches)
 
     def _batch(
         self, name: str, mesh: Mesh, count: int, colour: Colour, opacity: float | None = None
     ) -> viser.BatchedMeshHandle:
-        return self._server.scene.add_batched_meshes_simple(
-            f"{ROOT}/{name}",
+        return self._scene.add_batched_meshes_simple(
+            f"{self.root}/{name}",
             mesh.vertices,
             mesh.faces,
             batched_wxyzs=np.tile(_UPRIGHT, (count, 1)),
@@ -167,25 +169,3 @@ class Arena:
             cast_shadow=False,
             receive_shadow=False,
         )
-
-    def _clicked(self, event: viser.SceneNodePointerEvent[viser.BatchedMeshHandle]) -> None:
-        if event.instance_index is not None and self.on_robot_click is not None:
-            self.on_robot_click(event.instance_index)
-
-    def _welcome(self, client: viser.ClientHandle) -> None:
-        client.camera.on_update(self._keep_framed)
-        self._keep_framed(client.camera)
-
-    def _keep_framed(self, camera: viser.CameraHandle) -> None:
-        """Fit the picture to the shape of the window, until the user takes the camera elsewhere."""
-        poses = (self._usual_pose, self._poses.get(camera.client))
-        if any(pose is not None and pose.is_at(camera.position) for pose in poses):
-            self._aim(camera.client)
-
-    def _aim(self, client: viser.ClientHandle) -> None:
-        """Turn one camera so that the whole arena is in the picture, whatever its shape."""
-        pose = framing(outer_points(self._shape), client.camera.aspect)
-        self._poses[client] = pose
-        if not pose.is_at(client.camera.position):
-            with client.atomic():
-                client.camera.position, client.camera.look_at = pose.position, pose.look_at

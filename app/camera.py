@@ -51,13 +51,14 @@ def framing(corners: npt.NDArray[np.float64], aspect: float = USUAL_ASPECT) -> C
     up = np.array((0.0, math.sin(ELEVATION), math.cos(ELEVATION)))
     vertical = math.tan(FIELD_OF_VIEW / 2) / _MARGIN
     horizontal = vertical * aspect
-    x, height, depth = corners[:, 0], corners @ up, corners @ FORWARD
+    middle = (corners[:, 0].min() + corners[:, 0].max()) / 2
+    x, height, depth = corners[:, 0] - middle, corners @ up, corners @ FORWARD
     # A camera at (0, h, d) in the frame (east, up, forward) sees a point below the upper edge if
     # height - h <= vertical (depth - d), and so on: the four edges give h and the largest d.
     top = np.min(vertical * depth - height)
     bottom = np.min(vertical * depth + height)
     d = min((top + bottom) / (2 * vertical), np.min(depth - np.abs(x) / horizontal))
     h = (bottom - top) / 2
-    position = h * up + d * FORWARD
+    position = h * up + d * FORWARD + np.array((middle, 0.0, 0.0))
     distance = float(np.mean(depth)) - d
     return CameraPose(position, position + distance * FORWARD)

@@ -16,12 +16,17 @@ from geswarm.cli import UsageError
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
 from geswarm.sim import Scenario, ScenarioError, load_scenario
 
-from .arena import Arena
 from .evolution import EvolutionThread
 from .evolution_panel import EvolutionPanel
 from .gate import ServerError, open_server
+from .inspector_panel import InspectorPanel
+from .record_panel import RecordPanel
+from .recorder import Recorder
 from .rule_page import RulePage
+from .scenario_panel import ScenarioPanel
 from .session import Session
+from .show_panel import ShowPanel
+from .stage import Stage
 from .swarm_panel import SwarmPanel
 
 FRAME_SECONDS = 1 / 30
@@ -50,10 +55,14 @@ class Dashboard:
         self.session = session
         self.rule_page = RulePage(session)
         self.server = open_server(host, port, self.rule_page.channel, "GESwarm")
-        self.arena = Arena()
+        self.stage = Stage(session)
+        self.recorder = Recorder()
         self.swarm_panel = SwarmPanel(session)
+        self.inspector_panel = InspectorPanel(session)
+        self.show_panel = ShowPanel(session)
+        self.scenario_panel = ScenarioPanel(session)
+        self.record_panel = RecordPanel(session, self.recorder)
         self.evolution_panel = EvolutionPanel(session)
-        self._scenario_version = session.scenario_version
         self._stop = threading.Event()
         self._build()
 
@@ -65,11 +74,18 @@ class Dashboard:
     def _build(self) -> None:
         gui = self.server.gui
         gui.configure_theme(show_logo=False, show_share_button=False, brand_color=(15, 98, 214))
-        self.arena.build(self.server, self.session.scenario)
+        self.stage.build(self.server)
         with gui.add_folder("Swarm"):
             self.swarm_panel.build(gui)
+        self.inspector_panel.build(gui)
+        with gui.add_folder("Show", expand_by_default=False):
+            self.show_panel.build(gui)
+        with gui.add_folder("Scenario", expand_by_default=False):
+            self.scenario_panel.build(gui)
         with gui.add_folder("Evolution"):
             self.evolution_panel.build(gui)
+        with gui.add_folder("Record", expand_by_default=False):
+            self.record_panel.build(gui, self.server)
         gui.main_panel.dock_left()
         gui.main_panel.set_width(_CONTROLS_WIDTH)
         table = gui.add_panel()
@@ -87,8 +103,7 @@ class Dashboard:
                 self._frame(now - last)
                 if now - last_panels >= _PANEL_SECONDS:
                     last_panels = now
-                    self.swarm_panel.sync()
-                    self.evolution_panel.sync()
+                    self._sync_panels()
             except Exception:  # one bad frame or command must not end the session
                 logger.exception("a frame failed")
             last = now
@@ -106,11 +121,20 @@ class Dashboard:
     def _frame(self, elapsed: float) -> None:
         session = self.session
         session.frame(elapsed, _SIMULATION_SHARE * FRAME_SECONDS)
-        if session.scenario_version != self._scenario_version:
-            self._scenario_version = session.scenario_version
-            self.arena.rebuild(session.scenario)
-        self.arena.sync(session.view())
+        self.stage.sync(elapsed)
+        self.recorder.sync(elapsed)
         self.rule_page.sync(elapsed)
+
+    def _sync_panels(self) -> None:
+        for panel in (
+            self.swarm_panel,
+            self.inspector_panel,
+            self.show_panel,
+            self.scenario_panel,
+            self.evolution_panel,
+            self.record_panel,
+        ):
+            panel.sync()
 
 
 def run_dashboard(options: argparse.Namespace) -> int:

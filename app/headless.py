@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 import signal
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from rich.console import Console
@@ -19,31 +22,42 @@ from rich.progress import (
 )
 
 from geswarm.cli import UsageError
-from geswarm.experiment import EvolutionRun, RunConfig
+from geswarm.cluster import ClusterError, cluster_executor
+from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
 from geswarm.sim import ScenarioError, load_scenario
 
 from .run_directory import new_run_directory
 
 STOPPED_STATUS = 130
+_LOG_SECONDS = 10.0
 
 
 def evolve_headless(options: argparse.Namespace) -> int:
     """Evolve as the options say; 0 when all generations are done, 130 when stopped before."""
     console = Console(stderr=True)
-    try:
-        run = _open_run(options)
-    except (ScenarioError, SettingsError, StoreError) as error:
-        raise UsageError(str(error)) from error
+    with ExitStack() as resources:
+        try:
+            executor = None
+            if options.cluster is not None:
+                executor = resources.enter_context(cluster_executor(options.cluster))
+            run = _open_run(options)
+        except (ClusterError, ScenarioError, SettingsError, StoreError) as error:
+            raise UsageError(str(error)) from error
+        resources.callback(run.close)
+        return _evolve_and_report(run, options.workers, executor, console)
+
+
+def _evolve_and_report(
+    run: EvolutionRun, workers: int | None, executor: Executor | None, console: Console
+) -> int:
     try:
         with _stop_on_signals() as stop:
-            _evolve(run, options.workers, stop, console)
-    except StoreError as error:
-        console.print(f"geswarm-ui: {error}", markup=False)
+            _evolve(run, workers, executor, stop, console)
+    except (StoreError, EvaluationError) as error:
+        console.print(f"geswarm-ui: {error}", markup=False, soft_wrap=True)
         console.print(_how_to_resume(run), markup=False, soft_wrap=True)
         return 1
-    finally:
-        run.close()
     if not run.finished:
         console.print(f"Stopped. {_how_to_resume(run)}", markup=False, soft_wrap=True)
         return STOPPED_STATUS
@@ -65,7 +79,9 @@ def _open_run(options: argparse.Namespace) -> EvolutionRun:
         if getattr(options, name) is not None
     }
     scenario = load_scenario(options.scenario or "paper")
-    config = RunConfig(scenario, Settings(**given), options.seed or 0)
+    config = RunConfig(
+        scenario, Settings.preset(options.preset or "paper", **given), options.seed or 0
+    )
     directory = Path(options.out) if options.out is not None else new_run_directory(config)
     return EvolutionRun.create(config, directory)
 
@@ -75,7 +91,11 @@ def _how_to_resume(run: EvolutionRun) -> str:
 
 
 def _evolve(
-    run: EvolutionRun, workers: int | None, stop: threading.Event, console: Console
+    run: EvolutionRun,
+    workers: int | None,
+    executor: Executor | None,
+    stop: threading.Event,
+    console: Console,
 ) -> None:
     settings = run.config.settings
     console.print(
@@ -96,6 +116,7 @@ def _evolve(
     with progress:
         done = len(run.history)
         task = progress.add_task("", total=settings.generations, completed=done, figures="")
+        log_is_due = _every(_LOG_SECONDS)
 
         def show(record: GenerationRecord) -> None:
             rate = 1 / record.seconds if record.seconds else 0.0
@@ -104,8 +125,27 @@ def _evolve(
                 f"invalid {record.invalid}, {rate:.2g} generations/s,"
             )
             progress.update(task, completed=record.generation, figures=figures)
+            if not console.is_terminal and log_is_due():  # a log file: lines, not a bar
+                progress.console.print(
+                    f"generation {record.generation}: {figures.rstrip(',')}", soft_wrap=True
+                )
 
-        run.run(workers, show, stop.is_set)
+        run.run(workers, show, stop.is_set, executor)
+
+
+def _every(seconds: float) -> Callable[[], bool]:
+    """A question that is answered yes at most once in so many seconds."""
+    last = -math.inf
+
+    def due() -> bool:
+        nonlocal last
+        now = time.monotonic()
+        if now - last < seconds:
+            return False
+        last = now
+        return True
+
+    return due
 
 
 @contextmanager

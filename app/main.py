@@ -17,8 +17,8 @@ from geswarm.cli import (
 )
 
 _DASHBOARD_ONLY = ("host", "port", "rules")
-_HEADLESS_ONLY = ("generations", "population", "evaluations", "seed", "out", "resume")
-_SET_BY_THE_RUN = ("scenario", "generations", "population", "evaluations", "seed", "out")
+_SET_BY_THE_RUN = ("scenario", "preset", "generations", "population", "evaluations", "seed", "out")
+_HEADLESS_ONLY = (*_SET_BY_THE_RUN[1:], "resume", "cluster")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -40,6 +40,7 @@ def _parser() -> argparse.ArgumentParser:
     dashboard.add_argument("--rules", metavar="R", help=f"{RULES_HELP}; default: evo8")
     headless = parser.add_argument_group("headless evolution")
     headless.add_argument("--no-ui", action="store_true", help="evolve without the dashboard")
+    headless.add_argument("--preset", metavar="P", help="paper (default) or modern")
     headless.add_argument("--generations", type=positive_int, metavar="N", help="default: 1000")
     headless.add_argument("--population", type=positive_int, metavar="N", help="default: 100")
     headless.add_argument(
@@ -48,6 +49,9 @@ def _parser() -> argparse.ArgumentParser:
     headless.add_argument("--seed", type=non_negative_int, metavar="N", help="default: 0")
     headless.add_argument("--out", metavar="DIR", help="run directory; default: a new one in runs/")
     headless.add_argument("--resume", metavar="DIR", help="continue the run of a directory")
+    headless.add_argument(
+        "--cluster", metavar="ADDRESS", help="evaluate on the workers of a Dask scheduler"
+    )
     parser.set_defaults(command=_start)
     return parser
 
@@ -62,6 +66,8 @@ def _port(text: str) -> int:
 def _start(options: argparse.Namespace) -> int:
     if options.no_ui:
         _refuse(options, _DASHBOARD_ONLY, "is for the dashboard, not for --no-ui")
+        if options.cluster is not None:
+            _refuse(options, ("workers",), "is for this machine, not for --cluster")
         if options.resume is not None:
             _refuse(options, _SET_BY_THE_RUN, "is fixed by the run that --resume continues")
         from .headless import evolve_headless

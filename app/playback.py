@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-SPEEDS = (1.0, 2.0, 5.0, 10.0, 50.0, math.inf)
+SPEEDS = (1.0, 5.0, 10.0, 50.0, math.inf)
 """Simulated seconds per second; infinity means as fast as possible."""
 
 _LONGEST_FRAME = 0.25  # s: after a hang the swarm goes on, it does not catch up

@@ -10,48 +10,82 @@ import math
 import queue
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from geswarm.rules import RuleSet, load_preset, read_rule_set
-from geswarm.sim import CONTROL_STEP, Scenario, World
+from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
+from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World
 
-from .document import RuleDocument
+from .document import RuleDocument, bare_rules
 from .evolution import EvolutionThread
+from .insight import InsightFinder
 from .playback import Playback
+from .rival import BEFORE, Rival, rivals_offered
+from .swarm import Swarm
+from .trace import SAMPLE_STEPS, Trace
 from .verdict import Question, Verdict
-from .view import ArenaView, between
+from .view import ArenaView, Kind, Shown
+from .worth import WorthOfPieces, WorthQuestion
 
 Command: TypeAlias = Callable[["Session"], None]
 
-_STEPS_PER_CALL = 10  # between two looks at the clock
+
+@dataclass(frozen=True)
+class Held:
+    """What the mouse holds, and where (m)."""
+
+    kind: Kind
+    index: int
+    x: float
+    y: float
 
 
 class Session:
     """The state that every panel shows.
 
     Attributes:
-        scenario: Where the swarm forages.
+        loaded: The scenario as it was loaded.
+        scenario: Where the swarm forages: as loaded, or changed since.
+        scenario_problem: Why the last change of it was refused, else empty.
         document: The rules being edited; the world runs them as they stand.
         world: The swarm.
+        rival: The swarm beside it, if there is one.
+        trace: Where the robots have been.
         playback: Play, pause, speed.
         evolution: The background evolution.
         verdict: What the last change did to the score.
+        worth: What each piece of the rules is worth, once asked for.
+        insight: What can be said of the rules without running them.
         scenario_version: Grows when the scenario changes.
+        shown: What is drawn besides robots and objects.
+        selected: Index of the robot that is looked at, if any.
+        following: The camera follows it.
+        held: What the mouse holds, if anything.
     """
 
     def __init__(
         self, scenario: Scenario, rule_set: RuleSet, evolution: EvolutionThread, seed: int = 0
     ) -> None:
-        self.scenario = scenario
+        self.loaded = self.scenario = scenario
+        self.scenario_problem = ""
         self.document = RuleDocument(rule_set)
         self.world = World(scenario, rule_set, seed)
+        self.rival: Rival | None = None
+        self.trace = Trace(scenario, self.world.state)
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
         self.scenario_version = 1
         self.verdict = Verdict(evolution.workers)
+        self.worth = WorthOfPieces(evolution.workers)
+        self.insight = InsightFinder()
+        self.shown = Shown()
+        self.selected: int | None = None
+        self.following = False
+        self.held: Held | None = None
+        self._swarm = Swarm(self.world)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
-        self._jump()
-        self._ask_for_verdict()
+        self.insight.look_into(self.document.version, rule_set)
+        self._judge()
 
     # --- the loop -----------------------------------------------------------------------------
 
@@ -74,21 +108,43 @@ class Session:
 
     def view(self) -> ArenaView:
         """The arena now: between its last two steps, so that motion is smooth at any speed."""
-        return between(self._before, self._now, self.playback.fraction)
+        return self._swarm.view(self.playback.fraction)
+
+    def rival_view(self) -> ArenaView | None:
+        """The other arena at the same moment, if there is one."""
+        return self.rival.swarm.view(self.playback.fraction) if self.rival else None
+
+    @property
+    def _swarms(self) -> tuple[Swarm, ...]:
+        return (self._swarm, self.rival.swarm) if self.rival else (self._swarm,)
 
     def _advance(self, steps: float, budget: float) -> None:
-        """Make the steps due, the last one between the two views kept."""
+        """Make the steps due, the last one as motion that is displayed."""
         deadline = time.perf_counter() + budget
         while steps > 1 and time.perf_counter() < deadline:
-            chunk = int(min(steps - 1, _STEPS_PER_CALL))
-            self.world.step(chunk)
+            chunk = int(min(steps - 1, SAMPLE_STEPS - self.world.steps % SAMPLE_STEPS))
+            for swarm in self._swarms:
+                swarm.world.step(chunk)
+            self._record()
             steps -= chunk
-        self._before = ArenaView.of(self.world.state)
-        self.world.step()
-        self._now = ArenaView.of(self.world.state)
+        for swarm in self._swarms:
+            swarm.step()
+        self._record()
+        self._keep_held()
+
+    def _record(self) -> None:
+        if self.world.steps % SAMPLE_STEPS == 0:
+            self.trace.record(self.world.state)
+
+    def _restarted(self) -> None:
+        """Nothing of the run before is shown any more."""
+        self.held = None
+        self.trace.restart(self.scenario, self.world.state)
+        self._jump()
 
     def _jump(self) -> None:
-        self._before = self._now = ArenaView.of(self.world.state)
+        for swarm in self._swarms:
+            swarm.jump()
         self.playback.restart()
 
     # --- commands: playback -------------------------------------------------------------------
@@ -104,7 +160,7 @@ class Session:
     def step(self) -> None:
         """One control step, then pause."""
         self.pause()
-        self.world.step()
+        self._advance(1, 0.0)
         self._jump()
 
     def set_speed(self, speed: float) -> None:
@@ -115,15 +171,107 @@ class Session:
     def reset(self, seed: int | None = None) -> None:
         """Start the run again, with another seed if one is given."""
         self.world.reset(seed)
-        self._jump()
+        if self.rival is not None:
+            self.rival.swarm.world.set_rules(self._rules_of(self.rival))
+            self.rival.swarm.world.reset(self.world.seed)
+        self._restarted()
+
+    def toggle_fastest(self) -> None:
+        """As fast as possible, or back to the clock on the wall."""
+        self.set_speed(1.0 if math.isinf(self.playback.speed) else math.inf)
+
+    # --- commands: scenario -------------------------------------------------------------------
 
     def set_scenario(self, scenario: Scenario) -> None:
         """Move the swarm to another scenario; the rules stay."""
-        self.scenario = scenario
-        self.world = World(scenario, self.document.rule_set, self.world.seed)
+        self.loaded = scenario
+        self._take_scenario(scenario)
+
+    def change_scenario(self, **changes: Any) -> None:
+        """Change values of the scenario, at once where the run can go on, else with a reset.
+
+        What cannot be is left as it was; `scenario_problem` tells why.
+        """
+        try:
+            self._take_scenario(self.scenario.with_changes(**changes))
+        except ScenarioError as error:
+            self.scenario_problem = "; ".join(
+                f"{finding.place.element}: {finding.message}" for finding in error.findings
+            )
+
+    def restore_scenario(self) -> None:
+        """Take back all changes of the scenario since it was loaded."""
+        self._take_scenario(self.loaded)
+
+    def _take_scenario(self, scenario: Scenario) -> None:
+        self.scenario_problem = ""
+        if scenario == self.scenario:
+            return
+        self.scenario = self.trace.scenario = scenario
         self.scenario_version += 1
-        self._jump()
-        self._ask_for_verdict()
+        goes_on = [swarm.world.set_scenario(scenario) for swarm in self._swarms]
+        if not all(goes_on):
+            if self.selected is not None and self.selected >= scenario.robots:
+                self.deselect()
+            self._restarted()
+        self._judge()
+
+    # --- commands: side by side ---------------------------------------------------------------
+
+    def rivals_offered(self) -> tuple[str, ...]:
+        """Names of the rule sets that there are to compare with now."""
+        return tuple(rivals_offered(self.document, self.evolution))
+
+    def compare_with(self, name: str | None) -> None:
+        """Run another rule set beside this one, both from the start; None ends it.
+
+        Raises:
+            KeyError: There is none of that name now.
+        """
+        if name is None:
+            self.rival = None
+            return
+        rule_set = rivals_offered(self.document, self.evolution)[name]
+        self.rival = Rival(name, Swarm(World(self.scenario, rule_set, self.world.seed)))
+        self.reset()
+
+    def _rules_of(self, rival: Rival) -> RuleSet:
+        """The rules that the rival's name stands for now; its old ones if there are none."""
+        offered = rivals_offered(self.document, self.evolution)
+        return offered.get(rival.name, rival.swarm.world.rule_set)
+
+    # --- commands: hands in the arena ---------------------------------------------------------
+
+    def select(self, robot: int) -> None:
+        """Look at a robot, or no longer if it is the one already looked at."""
+        if robot == self.selected:
+            self.deselect()
+        elif 0 <= robot < self.scenario.robots:
+            self.selected = robot
+
+    def deselect(self) -> None:
+        """Look at no robot in particular."""
+        self.selected = None
+        self.following = False
+
+    def follow(self, wanted: bool) -> None:
+        """Have the camera follow the selected robot, or stay where it is."""
+        self.following = wanted and self.selected is not None
+
+    def hold(self, kind: Kind, index: int, x: float, y: float) -> None:
+        """Take a robot or an object to a place and hold it there until it is released."""
+        number = self.scenario.robots if kind == "robot" else self.scenario.objects
+        if 0 <= index < number:
+            self.held = Held(kind, index, x, y)
+            self._keep_held()
+
+    def release(self) -> None:
+        """Let go of what is held."""
+        self.held = None
+
+    def _keep_held(self) -> None:
+        if (held := self.held) is not None:
+            self._swarm.place(held.kind, held.index, held.x, held.y)
 
     # --- commands: rules ----------------------------------------------------------------------
 
@@ -148,7 +296,7 @@ class Session:
 
     def load(self, rule_set: RuleSet) -> None:
         """Put another rule set in the table and in the swarm; undo brings the old one back."""
-        self.document.replace(rule_set)
+        self.document.load(rule_set)
         self._follow_document()
 
     def load_preset(self, name: str) -> None:
@@ -167,22 +315,50 @@ class Session:
         """
         self.load(read_rule_set(text, source))
 
+    def set_text(self, text: str) -> None:
+        """Change the rules to what was typed in the rule language.
+
+        Raises:
+            RuleSetError: It cannot be read; nothing has changed.
+        """
+        self.document.replace(read_rule_set(text))
+        self._follow_document()
+
+    def simplify(self) -> None:
+        """Put the shortest rules with exactly the same behaviour in place."""
+        self.document.replace(simplify(self.document.rule_set).rule_set)
+        self._follow_document()
+
+    def weigh_pieces(self) -> None:
+        """Begin to find out what each piece of the rules is worth."""
+        document = self.document
+        self.worth.ask(WorthQuestion(document.version, document.rule_set, self.scenario))
+
     def load_best(self) -> None:
         """Load the best rule set that evolution has found so far, if there is one."""
         if (best := self.evolution.best) is not None:
             self.load(best)
 
     def _follow_document(self) -> None:
-        self.world.set_rules(self.document.rule_set)
-        self._ask_for_verdict()
+        document = self.document
+        self.insight.look_into(document.version, document.rule_set)
+        if bare_rules(document.rule_set) == bare_rules(self.world.rule_set):
+            return  # only words have changed
+        self.world.set_rules(document.rule_set)
+        if self.rival is not None and self.rival.name == BEFORE:
+            self.rival.swarm.world.set_rules(self._rules_of(self.rival))
+        self._judge()
 
-    def _ask_for_verdict(self) -> None:
+    def _judge(self) -> None:
         document = self.document
         self.verdict.ask(
             Question(document.version, document.rule_set, document.before, self.scenario)
         )
+        self.worth.forget(document.version)
 
     def close(self) -> None:
         """Stop everything that runs in the background."""
         self.evolution.stop()
         self.verdict.close()
+        self.worth.close()
+        self.insight.close()

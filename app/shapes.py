@@ -92,6 +92,11 @@ def rectangle(x: Point, y: Point, z: float = 0.0) -> Mesh:
     return _mesh(corners, np.array([(0, 1, 2), (0, 2, 3)]))
 
 
+def annulus(inside: float, outside: float, sides: int) -> Mesh:
+    """A flat ring at z = 0 between two radii, seen from above."""
+    return lathe(((outside, 0.0), (inside, 0.0)), sides)
+
+
 def line(points: Sequence[Point], width: float) -> Mesh:
     """A flat line at z = 0 with round ends and bends, seen from above."""
     dot = lathe(((width / 2, 0.0), (0.0, 0.0)), 12)

@@ -5,15 +5,29 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from html import escape
+from typing import Literal, TypeAlias
 
 import viser
 
 from geswarm.sim import load_scenario, scenario_names
 
 from .playback import SPEEDS
-from .session import Session
+from .session import Command, Session
+from .widgets import show_value
 
 _PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"
+_NOTHING = "nothing"
+
+Key: TypeAlias = Literal["P", "O", "X", "F", "R"]
+
+KEYS: tuple[tuple[Key, str, Command], ...] = (
+    ("P", "Play", lambda session: session.play()),
+    ("O", "Pause", lambda session: session.pause()),
+    ("X", "Step", lambda session: session.step()),
+    ("F", "Fast-forward, or back to 1x", lambda session: session.toggle_fastest()),
+    ("R", "Reset", lambda session: session.reset()),
+)
+"""Key, name and command: the keys are ARGoS's."""
 
 
 def speed_label(speed: float) -> str:
@@ -29,7 +43,7 @@ class SwarmHandles:
     play: viser.GuiButtonHandle
     speed: viser.GuiButtonGroupHandle
     scenario: viser.GuiDropdownHandle[str]
-    seed: viser.GuiNumberHandle[int]
+    compare: viser.GuiDropdownHandle[str]
 
 
 class SwarmPanel:
@@ -45,16 +59,24 @@ class SwarmPanel:
         """Make the widgets in the present container."""
         post, session = self.session.post, self.session
         score = gui.add_html("")
-        play = gui.add_button(_PLAY, icon=viser.Icon.PLAYER_PLAY)
+        play = gui.add_button(
+            _PLAY,
+            icon=viser.Icon.PLAYER_PLAY,
+            hint="Keys: P plays, O pauses (click the arena first)",
+        )
         play.on_click(lambda _: post(lambda s: s.pause() if s.playback.playing else s.play()))
         run = gui.add_button_group(
-            "Run", (_STEP, _RESET), hint="One control step of 0.1 s; or start the run again"
+            "Run",
+            (_STEP, _RESET),
+            hint="X: one control step of 0.1 s; R: start the run again with the same seed",
         )
         run.on_click(
             lambda event: post(lambda s: s.step() if event.target.value == _STEP else s.reset())
         )
         speeds = {speed_label(speed): speed for speed in SPEEDS}
-        speed = gui.add_button_group("Speed", tuple(speeds))
+        speed = gui.add_button_group(
+            "Speed", tuple(speeds), hint="Simulated seconds per second; F: max, or back to 1x"
+        )
         speed.on_click(lambda event: post(lambda s: s.set_speed(speeds[event.target.value])))
         names = list(dict.fromkeys([*scenario_names(), session.scenario.name]))
         given = session.scenario
@@ -73,7 +95,20 @@ class SwarmPanel:
             number = int(event.target.value)
             post(lambda s: s.reset(number) if s.world.seed != number else None)
 
-        self.handles = SwarmHandles(score, play, speed, scenario, seed)
+        compare = gui.add_dropdown(
+            "Compare with",
+            (_NOTHING, *session.rivals_offered()),
+            hint="A second arena beside this one, same seed and clock; both start again",
+        )
+
+        @compare.on_update
+        def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
+            name = event.target.value
+            post(lambda s: compare_with(s, None if name == _NOTHING else name))
+
+        for key, label, command in KEYS:
+            add_key(gui, session, key, label, command)
+        self.handles = SwarmHandles(score, play, speed, scenario, compare)
 
     def sync(self) -> None:
         """Show the session as it is."""
@@ -85,27 +120,48 @@ class SwarmPanel:
         if handles.play.label != (_PAUSE if playing else _PLAY):
             handles.play.label = _PAUSE if playing else _PLAY
             handles.play.icon = viser.Icon.PLAYER_PAUSE if playing else viser.Icon.PLAYER_PLAY
+        handles.speed.label = f"Speed {speed_label(session.playback.speed)}"
+        if session.loaded.name in handles.scenario.options:
+            show_value(handles.scenario, session.loaded.name)
+        rival = session.rival.name if session.rival else _NOTHING
+        offered = tuple(dict.fromkeys((_NOTHING, *session.rivals_offered(), rival)))
+        if handles.compare.options != offered:
+            handles.compare.options = offered
+        show_value(handles.compare, rival)
+
+
+def add_key(gui: viser.GuiApi, session: Session, key: Key, label: str, command: Command) -> None:
+    """Have a key, pressed anywhere but in a field, post a command."""
+    gui.add_command(label, hotkey=key).on_trigger(lambda _: session.post(command))
+
+
+def compare_with(session: Session, name: str | None) -> None:
+    """Compare with another rule set, unless that is being done already."""
+    if name != (session.rival.name if session.rival else None):
+        session.compare_with(name)
 
 
 def score_html(session: Session) -> str:
-    """Clock and score of the run, as HTML."""
+    """Clock and score of the run, as HTML; of both runs if two are compared."""
     world = session.world
     minutes, seconds = divmod(int(world.time), 60)
-    speed = speed_label(session.playback.speed)
-    figures = (
-        ("collected", f"{world.collected}"),
-        ("lost", f"{world.lost}"),
-        ("time", f"{minutes}:{seconds:02d}"),
-    )
+    figures = [("collected", f"{world.collected}"), ("lost", f"{world.lost}")]
+    if session.rival is not None:
+        figures = [
+            ("these rules", f"{world.collected}"),
+            (session.rival.name, f"{session.rival.swarm.world.collected}"),
+        ]
+    figures.append(("time", f"{minutes}:{seconds:02d}"))
     cells = "".join(
         '<div style="flex:1"><div style="font-size:1.5em;font-weight:600;line-height:1.1;'
         f'font-variant-numeric:tabular-nums">{escape(value)}</div>'
         f'<div style="font-size:.75em;opacity:.65">{escape(label)}</div></div>'
         for label, value in figures
     )
+    changed = ", changed" if session.scenario != session.loaded else ""
     return (
         '<div style="padding:.2em .9em .5em">'
         f'<div style="display:flex;text-align:center">{cells}</div>'
         '<div style="font-size:.75em;opacity:.65;text-align:center;padding-top:.4em">'
-        f"{escape(session.scenario.name)} · {session.scenario.robots} robots · {speed}</div></div>"
+        f"{escape(session.scenario.name)}{changed} · {session.scenario.robots} robots</div></div>"
     )

@@ -1,14 +1,32 @@
-"""What is seen of a world at one moment."""
+"""What is seen of a world at one moment, and what the user wants to see besides."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from geswarm.sim import WorldState
+
+Kind: TypeAlias = Literal["robot", "object"]
+Whose: TypeAlias = Literal["none", "selected", "all"]
+
+
+@dataclass
+class Shown:
+    """What is drawn besides robots and objects.
+
+    Attributes:
+        trails: The robots' paths of late.
+        visits: How often each place was visited, as a heat map.
+        ranges: Whose sensing ranges.
+    """
+
+    trails: bool = False
+    visits: bool = False
+    ranges: Whose = "none"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +53,16 @@ class ArenaView:
     def of(cls, state: WorldState) -> ArenaView:
         """What there is to see of a world's state."""
         return cls(state.x, state.y, state.theta, state.behaviour, state.carried, state.objects)
+
+    def with_placed(self, kind: Kind, i: int, other: ArenaView) -> ArenaView:
+        """The same, but with one robot or object where the other view has it."""
+        if kind == "object":
+            objects = self.objects.copy()
+            objects[i] = other.objects[i]
+            return replace(self, objects=objects)
+        x, y = self.x.copy(), self.y.copy()
+        x[i], y[i] = other.x[i], other.y[i]
+        return replace(self, x=x, y=y)
 
 
 def between(before: ArenaView, after: ArenaView, fraction: float) -> ArenaView:

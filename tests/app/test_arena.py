@@ -25,7 +25,7 @@ def view(robots=3, objects=2, behaviour=0, x=0.0):
 @pytest.fixture
 def arena(server):
     arena = Arena()
-    arena.build(server, PAPER)
+    arena.build(server.scene, PAPER)
     return arena
 
 
@@ -68,10 +68,10 @@ def test_counts_may_change(arena, counts):
 
 def test_another_scenario_replaces_the_old_one(arena, server):
     arena.sync(view())
-    robots, camera = arena.handles.robots, server.initial_camera.position
-    arena.rebuild(WIDE)
+    robots = arena.handles.robots
+    arena.build(server.scene, WIDE, at=(3.0, -2.0))
     assert arena.handles.robots is None
-    assert np.linalg.norm(server.initial_camera.position) > 2 * np.linalg.norm(camera)
+    np.testing.assert_allclose(arena.handles.root.position, (3, -2, 0))
     with pytest.raises(RuntimeError, match="removed"):
         robots.bodies.visible = False
     arena.sync(view(20, 25))
@@ -89,13 +89,13 @@ def test_view_is_not_kept(arena):
     assert not arena.handles.robots.bodies.batched_positions[:, 0].any()
 
 
-def test_clicked_robot_is_told(server):
-    clicked = []
-    arena = Arena(on_robot_click=clicked.append)
-    arena.build(server, PAPER)
-    arena.sync(view())
-    for part in arena.handles.robots.clickable:
-        (entry,) = part._impl.click_cb
-        entry.callback(SimpleNamespace(instance_index=2))
-        entry.callback(SimpleNamespace(instance_index=None))
-    assert clicked == [2, 2, 2]
+def test_new_batches_are_told_once(server):
+    made = []
+    arena = Arena("/arena", lambda kind, batches: made.append((kind, batches)))
+    arena.build(server.scene, PAPER)
+    for _ in range(3):
+        arena.sync(view())
+    handles = arena.handles
+    assert made == [("robot", handles.robots.posed), ("object", (handles.objects,))]
+    arena.sync(view(4, 2))
+    assert [kind for kind, _ in made] == ["robot", "object", "robot"]

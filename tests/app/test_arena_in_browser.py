@@ -7,7 +7,8 @@ import pytest
 
 from geswarm.app.arena import Arena
 from geswarm.app.camera import framing
-from geswarm.app.scenery import outer_points
+from geswarm.app.cameraman import Cameraman
+from geswarm.app.scenery import draw_backdrop, outer_points
 from geswarm.app.view import ArenaView
 
 from .test_arena import PAPER, WIDE
@@ -74,7 +75,10 @@ def shows(behaviours, x=X):
 @pytest.fixture
 def arena(server, page):
     arena = Arena()
-    arena.build(server, PAPER)
+    draw_backdrop(server.scene)
+    arena.build(server.scene, PAPER)
+    arena.cameraman = Cameraman()
+    arena.cameraman.build(server, outer_points(PAPER))
     arena.sync(view([AMBER, BLUE, GREEN]))
     page.goto(f"http://127.0.0.1:{server.get_port()}/")
     return arena
@@ -102,9 +106,10 @@ def test_arena_stays_in_the_picture_when_the_window_changes(arena, page):
     wait_for(page, shows([AMBER, BLUE, GREEN]))
 
 
-def test_open_page_follows_a_change_of_the_scenario(arena, page):
+def test_open_page_follows_a_change_of_the_scenario(arena, page, server):
     wait_for(page, shows([AMBER, BLUE, GREEN]))
-    arena.rebuild(WIDE)
+    arena.build(server.scene, WIDE)
+    arena.cameraman.frame(outer_points(WIDE))
     blues = ArenaView(
         *np.array([(-9.0, 9.0), (-1.0, -1.0), (0.0, 0.0)]),
         np.array([BLUE, BLUE]),

@@ -33,6 +33,16 @@ def test_every_arena_fills_the_picture(width, length, aspect):
     assert np.abs(places).max() > 0.9
 
 
+def test_what_is_beside_the_origin_is_in_the_middle():
+    shape = SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0)
+    points = outer_points(shape) + np.array((50.0, -7.0, 0.0))
+    pose = framing(points, 1.35)
+    places = picture(points, pose, 1.35)
+    assert np.abs(places).max() <= 1
+    assert places[:, 0].max() == pytest.approx(-places[:, 0].min())
+    assert pose.position[0] == pytest.approx(50.0)
+
+
 def test_north_is_up():
     points = outer_points(SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0))
     south, north, east = np.array([(0, -1, 0), (0, 1, 0), (1, 0, 0)], dtype=float)

@@ -1,0 +1,137 @@
+"""The panel that looks into one robot: what it perceives, does and holds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from html import escape
+
+import viser
+
+from geswarm.rules import FORAGING, RuleSet
+from geswarm.sim import WorldState
+
+from . import palette
+from .session import Session
+from .widgets import show_value
+
+_TRUE, _FALSE = "#0f8a4f", "#8a8f98"
+
+
+@dataclass
+class InspectorHandles:
+    """Widgets that `sync` updates."""
+
+    folder: viser.GuiFolderHandle
+    text: viser.GuiHtmlHandle
+    follow: viser.GuiCheckboxHandle
+
+
+class InspectorPanel:
+    """A folder that is there while a robot is selected."""
+
+    handles: InspectorHandles
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._shown = ""
+
+    def build(self, gui: viser.GuiApi) -> None:
+        """Make the folder, out of sight."""
+        folder = gui.add_folder("Robot", visible=False)
+        with folder:
+            text = gui.add_html("")
+            follow = gui.add_checkbox("Follow", False, hint="The camera goes with the robot")
+        self.handles = InspectorHandles(folder, text, follow)
+
+        @follow.on_update
+        def _(event: viser.GuiEvent[viser.GuiCheckboxHandle]) -> None:
+            wanted = event.target.value
+            self.session.post(lambda session: session.follow(wanted))
+
+    def sync(self) -> None:
+        """Show the selected robot, or nothing."""
+        session, handles = self.session, self.handles
+        handles.folder.visible = session.selected is not None
+        show_value(handles.follow, session.following)
+        if session.selected is None:
+            return
+        handles.folder.label = f"Robot {session.selected + 1}"
+        text = robot_html(session.world.state, session.selected, session.document.rule_set)
+        if text != self._shown:
+            self._shown = handles.text.content = text
+
+
+def robot_html(state: WorldState, robot: int, rule_set: RuleSet) -> str:
+    """What there is to know of a robot, as HTML."""
+    code = int(state.behaviour[robot])
+    colour = palette.css(palette.behaviour_colour(code))
+    behaviour = (
+        f'<span style="display:inline-block;width:.75em;height:.75em;border-radius:50%;'
+        f'background:{colour};margin-right:.4em"></span>'
+        f"<b>{escape(FORAGING.behaviours[code].name)}</b>"
+    )
+    heading = math.degrees(float(state.theta[robot]))
+    rows = (
+        ("behaviour", behaviour),
+        (
+            "perceives",
+            _bits(int(state.percepts[robot]), [item.name for item in FORAGING.preconditions]),
+        ),
+        (
+            "internal states",
+            _bits(
+                int(state.internal_states[robot]), [item.name for item in FORAGING.internal_states]
+            ),
+        ),
+        ("carries", "an object" if state.carried[robot] else "nothing"),
+        ("last rule", last_rule_html(int(state.last_rule[robot]), rule_set)),
+        (
+            "place",
+            f"{state.x[robot]:+.2f} m east, {state.y[robot]:+.2f} m north<br>"
+            f"heading {compass(heading)}",
+        ),
+    )
+    cells = "".join(
+        '<tr style="vertical-align:top"><td style="opacity:.65;padding:.15em .8em .15em 0;'
+        f'white-space:nowrap">{escape(label)}</td><td style="padding:.15em 0">{value}</td></tr>'
+        for label, value in rows
+    )
+    return (
+        '<div style="padding:.2em .9em .4em;font-size:.85em;line-height:1.35;'
+        f'font-variant-numeric:tabular-nums"><table style="border:0">{cells}</table></div>'
+    )
+
+
+def last_rule_html(index: int, rule_set: RuleSet) -> str:
+    """The rule that fired last, with its comment."""
+    if not 0 <= index < len(rule_set.rules):
+        return "none since the rules were set"
+    comment = rule_set.rules[index].comment
+    said = f'<div style="opacity:.75">{escape(comment)}</div>' if comment else ""
+    return f"<b>R{index + 1}</b>{said}"
+
+
+def compass(degrees: float) -> str:
+    """A heading, given counter-clockwise from east, as people say it: `45° (north-east)`."""
+    names = (
+        "north",
+        "north-east",
+        "east",
+        "south-east",
+        "south",
+        "south-west",
+        "west",
+        "north-west",
+    )
+    bearing = (90.0 - degrees) % 360.0
+    return f"{round(bearing) % 360}° ({names[round(bearing / 45.0) % 8]})"
+
+
+def _bits(bits: int, names: list[str]) -> str:
+    """One line for each name: true or false."""
+    return "<br>".join(
+        f'{escape(name)} <b style="color:{_TRUE if bits >> bit & 1 else _FALSE}">'
+        f"{'true' if bits >> bit & 1 else 'false'}</b>"
+        for bit, name in enumerate(names)
+    )

@@ -1,0 +1,83 @@
+"""Records what the scene shows and makes one self-contained HTML file of it."""
+
+from __future__ import annotations
+
+import threading
+from enum import Enum
+
+import viser
+from viser.infra import StateSerializer
+
+LONGEST_SECONDS = 300.0
+FILE_NAME = "geswarm-replay.html"
+
+
+class RecorderPhase(Enum):
+    """What the recorder is doing."""
+
+    IDLE = "idle"
+    RECORDING = "recording"
+    PACKING = "packing"
+
+
+class Recorder:
+    """Records from `start` to `stop`, then packs on a thread of its own and sends the file.
+
+    Owned by the loop.
+
+    Attributes:
+        phase: What it is doing.
+        seconds: Length of the recording.
+        size: Of the last file, bytes; 0 before the first.
+        problem: Why the last file could not be made, else empty.
+    """
+
+    def __init__(self) -> None:
+        self.phase = RecorderPhase.IDLE
+        self.seconds = 0.0
+        self.size = 0
+        self.problem = ""
+        self._serializer: StateSerializer | None = None
+        self._client: viser.ClientHandle | None = None
+        self._thread: threading.Thread | None = None
+
+    def start(self, server: viser.ViserServer, client: viser.ClientHandle | None) -> None:
+        """Begin with the scene as it is, for the client that shall get the file."""
+        if self.phase is RecorderPhase.IDLE:
+            self._serializer = server.get_scene_serializer()
+            self._client = client
+            self.seconds, self.problem = 0.0, ""
+            self.phase = RecorderPhase.RECORDING
+
+    def sync(self, elapsed: float) -> None:
+        """Let time go by in the recording; it ends by itself at `LONGEST_SECONDS`."""
+        if self.phase is RecorderPhase.RECORDING and self._serializer is not None:
+            self._serializer.insert_sleep(elapsed)
+            self.seconds += elapsed
+            if self.seconds >= LONGEST_SECONDS:
+                self.stop()
+
+    def stop(self) -> None:
+        """End the recording; the file follows as soon as it is packed."""
+        if self.phase is RecorderPhase.RECORDING and self._serializer is not None:
+            self.phase = RecorderPhase.PACKING
+            self._thread = threading.Thread(
+                target=self._pack, args=(self._serializer, self._client), daemon=True
+            )
+            self._thread.start()
+            self._serializer = self._client = None
+
+    def join(self, timeout: float = 60.0) -> None:
+        """Wait until a file that is being packed is sent."""
+        if self._thread is not None:
+            self._thread.join(timeout)
+
+    def _pack(self, serializer: StateSerializer, client: viser.ClientHandle | None) -> None:
+        try:
+            content = serializer.as_html().encode()
+            self.size = len(content)
+            if client is not None:
+                client.send_file_download(FILE_NAME, content, save_immediately=True)
+        except Exception as error:  # the arena goes on, and the user is told
+            self.problem = f"{type(error).__name__}: {error}"
+        self.phase = RecorderPhase.IDLE

@@ -1,0 +1,44 @@
+"""Another rule set that runs beside the one being edited: same scenario, seed and clock."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+from geswarm.rules import RuleSet, load_preset
+
+from .document import RuleDocument
+from .evolution import EvolutionThread
+from .swarm import Swarm
+
+BEFORE = "before the last edit"
+BEST = "best of the run"
+
+
+@dataclass
+class Rival:
+    """The other swarm.
+
+    Attributes:
+        name: One of the names that `rivals_offered` gave.
+        swarm: Its world, stepped together with the first.
+    """
+
+    name: str
+    swarm: Swarm
+
+
+@cache
+def _presets() -> tuple[RuleSet, ...]:
+    """Read once: the panel asks ten times a second."""
+    return tuple(load_preset(name) for name in ("hand-coded", "evo8"))
+
+
+def rivals_offered(document: RuleDocument, evolution: EvolutionThread) -> dict[str, RuleSet]:
+    """The rule sets that there are to compare with now, by name for people."""
+    offered = {preset.name: preset for preset in _presets()}
+    if document.before is not None:
+        offered[BEFORE] = document.before
+    if evolution.best is not None:
+        offered[BEST] = evolution.best
+    return offered

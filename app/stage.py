@@ -1,0 +1,130 @@
+"""Everything in the 3D scene: the arena, the rival's beside it, overlays, titles, the camera."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from .arena import Arena
+from .cameraman import Cameraman
+from .overlays import Overlays
+from .pointer import Pointer
+from .scenery import LAMP_DISTANCE, MARGIN, ArenaShape, draw_backdrop, outer_points
+from .session import Session
+
+_TRAIL_SECONDS, _VISIT_SECONDS = 0.1, 0.5  # from one drawing to the next
+_APART = 0.35  # m between the tables of two arenas
+THESE_RULES = "these rules"
+
+
+class Stage:
+    """Shows a session in the scene; what happens there is posted to it.
+
+    Attributes:
+        arena: The swarm.
+        rival: The other swarm's arena, drawn while there is one.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.pointer = Pointer(session.post)
+        self.arena = Arena("/arena", self.pointer.attach)
+        self.rival = Arena("/rival")
+        self.overlays = Overlays()
+        self.cameraman = Cameraman()
+        self._titles: dict[str, viser.LabelHandle] = {}
+        self._since_trails = self._since_visits = 0.0
+
+    def build(self, server: viser.ViserServer) -> None:
+        """Draw the session as it is and begin to listen to the mouse."""
+        self._server = server
+        draw_backdrop(server.scene)
+        self.pointer.watch_ground(server.scene)
+        self._layout = self._wanted_layout()
+        self._draw()
+        self.cameraman.build(server, self._points())
+
+    def sync(self, elapsed: float) -> None:
+        """Show the session as it is; called by the loop once a frame.
+
+        Args:
+            elapsed: Seconds since the last call.
+        """
+        session = self.session
+        with self._server.atomic():
+            if (layout := self._wanted_layout()) != self._layout:
+                self._layout = layout
+                self._draw()
+                self.cameraman.frame(self._points())
+            view = session.view()
+            self.arena.sync(view)
+            if (rival_view := session.rival_view()) is not None:
+                self.rival.sync(rival_view)
+                self._sync_titles()
+            self.overlays.sync_ranges(session.scenario, session.shown)
+            self.overlays.sync_robots(view, session.selected, session.shown)
+            self._sync_now_and_then(elapsed)
+        robot = session.selected if session.following else None
+        self.cameraman.follow(
+            None if robot is None else (float(view.x[robot]), float(view.y[robot]))
+        )
+
+    def _sync_now_and_then(self, elapsed: float) -> None:
+        session = self.session
+        self._since_trails += elapsed
+        self._since_visits += elapsed
+        if self._since_trails >= _TRAIL_SECONDS:
+            self._since_trails = 0.0
+            self.overlays.sync_trace(session.trace, session.shown)
+        if self._since_visits >= _VISIT_SECONDS:
+            self._since_visits = 0.0
+            self.overlays.sync_visits(session.trace, session.shown)
+
+    def _wanted_layout(self) -> tuple[object, ...]:
+        """All that the scenery depends on."""
+        shape = self.session.scenario
+        rival = self.session.rival is not None
+        return shape.width, shape.length, shape.nest, shape.source, shape.light, rival
+
+    def _draw(self) -> None:
+        scenario, scene = self.session.scenario, self._server.scene
+        self._titles = {}
+        self.arena.build(scene, scenario)
+        self.overlays.build(scene, scenario)
+        self.rival.remove()
+        if self.session.rival is not None:
+            self.rival.build(scene, scenario, beside(scenario))
+            for arena in (self.arena, self.rival):
+                front = (0.0, -scenario.length / 2 - MARGIN, 0.0)
+                self._titles[arena.root] = scene.add_label(
+                    f"{arena.root}/title",
+                    "",
+                    position=front,
+                    anchor="top-center",
+                    font_screen_scale=1.5,
+                )
+
+    def _sync_titles(self) -> None:
+        session = self.session
+        if session.rival is not None:
+            mine, other = session.world, session.rival.swarm.world
+            self._titles[self.arena.root].text = f"{THESE_RULES}: {mine.collected}"
+            self._titles[self.rival.root].text = f"{session.rival.name}: {other.collected}"
+
+    def _points(self) -> npt.NDArray[np.float64]:
+        """What must be in the picture, shape (n, 3), metres."""
+        scenario = self.session.scenario
+        points = outer_points(scenario)
+        if self.session.rival is None:
+            return points
+        titles = points - np.array((0.0, 0.15 * scenario.length, 0.0))
+        points = np.concatenate((points, titles))
+        return np.concatenate((points, points + np.array((*beside(scenario), 0.0))))
+
+
+def beside(shape: ArenaShape) -> tuple[float, float]:
+    """Where the second arena is: to the right of the first, or below it if they are wide."""
+    if shape.width > 2.0 * shape.length:
+        return 0.0, -(1.3 * shape.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
+    return shape.width + 2 * MARGIN + _APART, 0.0

@@ -1,0 +1,97 @@
+"""What the arena's panels say, without a browser."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import viser
+
+from geswarm.app.inspector_panel import compass, last_rule_html, robot_html
+from geswarm.app.record_panel import status
+from geswarm.app.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
+from geswarm.app.scenario_panel import VALUES
+from geswarm.app.stage import beside
+from geswarm.rules import Rule, RuleSet, load_preset
+from geswarm.sim import NEEDS_RESET, World, load_scenario
+
+PAPER = load_scenario("paper")
+
+
+@pytest.mark.parametrize(
+    ("degrees", "said"),
+    [(90, "0° (north)"), (0, "90° (east)"), (-90, "180° (south)"), (180, "270° (west)")],
+)
+def test_headings_are_said_as_a_compass_does(degrees, said):
+    assert compass(degrees) == said
+
+
+def test_compass_goes_all_round():
+    for degrees in np.linspace(-180, 180, 721):
+        assert not compass(degrees).startswith("360")
+
+
+def test_the_inspector_tells_percepts_behaviour_states_and_rule():
+    evo8 = load_preset("evo8")
+    world = World(PAPER, evo8, 1)
+    world.step(3000)
+    state = world.state
+    for robot in range(4):
+        text = robot_html(state, robot, evo8)
+        assert ("an object" in text) == bool(state.carried[robot])
+        assert f"R{state.last_rule[robot] + 1}" in text
+        for name in ("ON_NEST", "ON_SOURCE", "HAS_OBJECT", "WANT_OBJECT", "DROP_OBJECT"):
+            assert name in text
+
+
+def test_comments_are_escaped():
+    rules = RuleSet((Rule(comment="<script>"),))
+    assert "&lt;script&gt;" in last_rule_html(0, rules)
+    assert "none" in last_rule_html(-1, rules)
+    assert "none" in last_rule_html(4, rules)
+
+
+def test_every_value_of_the_scenario_can_be_changed():
+    changed = {"duration", "name"} | {value.key.partition(".")[0] for value in VALUES}
+    assert changed == set(vars(PAPER))
+    for value in VALUES:
+        other = PAPER.with_changes(**value.change(PAPER, value.of(PAPER)))
+        assert other == PAPER
+        assert type(getattr(other, value.key.partition(".")[0])) is not str
+    assert {value.key for value in VALUES if value.needs_reset} == set(NEEDS_RESET)
+
+
+def test_arenas_do_not_overlap():
+    for name in ("paper", "scalability-20", "flexibility-5"):
+        shape = load_scenario(name)
+        x, y = beside(shape)
+        assert abs(x) > shape.width or abs(y) > shape.length
+
+
+def test_a_recording_becomes_one_html_file(server):
+    recorder, sent = Recorder(), []
+    client = SimpleNamespace(send_file_download=lambda *file, **_: sent.append(file))
+    ball = server.scene.add_icosphere("/ball", 1.0)
+    recorder.sync(1.0)
+    assert (recorder.phase, recorder.seconds) == (RecorderPhase.IDLE, 0.0)
+    recorder.start(server, client)
+    for x in range(30):
+        ball.position = (x, 0.0, 0.0)
+        recorder.sync(1 / 30)
+    assert recorder.seconds == pytest.approx(1.0)
+    assert "0:0" in status(recorder)
+    recorder.sync(LONGEST_SECONDS)  # ends by itself
+    recorder.join()
+    ((name, content),) = sent
+    assert name.endswith(".html")
+    assert b"__VISER_EMBED_DATA__" in content
+    assert recorder.phase is RecorderPhase.IDLE
+    assert "MB" in status(recorder)
+
+
+def test_a_recording_that_fails_is_told(server, monkeypatch):
+    recorder = Recorder()
+    recorder.start(server, None)
+    monkeypatch.setattr(viser.infra.StateSerializer, "as_html", lambda self: 1 / 0)
+    recorder.stop()
+    recorder.join()
+    assert "ZeroDivisionError" in status(recorder)
