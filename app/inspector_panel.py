@@ -13,7 +13,7 @@ from geswarm.sim import WorldState
 
 from . import palette
 from .session import Session
-from .widgets import show_value
+from .widgets import Mirror
 
 _TRUE, _FALSE = "#0f8a4f", "#8a8f98"
 
@@ -34,6 +34,7 @@ class InspectorPanel:
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._mirror = Mirror()
         self._shown = ""
 
     def build(self, gui: viser.GuiApi) -> None:
@@ -53,7 +54,7 @@ class InspectorPanel:
         """Show the selected robot, or nothing."""
         session, handles = self.session, self.handles
         handles.folder.visible = session.selected is not None
-        show_value(handles.follow, session.following)
+        self._mirror.show(handles.follow, session.following)
         if session.selected is None:
             return
         handles.folder.label = f"Robot {session.selected + 1}"

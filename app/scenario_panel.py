@@ -12,7 +12,7 @@ import viser
 from geswarm.sim import NEEDS_RESET, Scenario
 
 from .session import Session
-from .widgets import show_value
+from .widgets import Mirror
 
 APPLY_SECONDS = 0.6
 """A number counts once it has stood for this long: every keystroke arrives as a change."""
@@ -82,6 +82,7 @@ class ScenarioPanel:
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._mirror = Mirror()
         self._numbers: dict[str, viser.GuiNumberHandle[float]] = {}
         self._wanted: dict[str, tuple[float, float]] = {}  # by key: value, and when it was typed
         self._text = ""
@@ -110,9 +111,10 @@ class ScenarioPanel:
             if wanted is not None and now - wanted[1] >= APPLY_SECONDS:
                 del self._wanted[value.key]
                 session.change_scenario(**value.change(session.scenario, wanted[0]))
+                self._mirror.forget(self._numbers[value.key])
         for value in VALUES:
             if value.key not in self._wanted:
-                show_value(self._numbers[value.key], value.of(session.scenario))
+                self._mirror.show(self._numbers[value.key], value.of(session.scenario))
         self._restore.disabled = session.scenario == session.loaded
         if self._restore.label != self._restore_label():
             self._restore.label = self._restore_label()
@@ -144,6 +146,8 @@ class ScenarioPanel:
 
     def _take_back(self, session: Session) -> None:
         self._wanted.clear()
+        for number in self._numbers.values():
+            self._mirror.forget(number)
         session.restore_scenario()
 
     def _restore_label(self) -> str:

@@ -12,7 +12,7 @@ from .overlays import RANGE_COLOURS, sensing_ranges
 from .session import Session
 from .trace import TRAIL_SECONDS
 from .view import Whose
-from .widgets import show_value
+from .widgets import Mirror
 
 _WHOSE: dict[str, Whose] = {"none": "none", "selected robot": "selected", "all robots": "all"}
 _WORDS = {whose: words for words, whose in _WHOSE.items()}
@@ -34,6 +34,7 @@ class ShowPanel:
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._mirror = Mirror()
         self._legend = ""
 
     def build(self, gui: viser.GuiApi) -> None:
@@ -66,10 +67,10 @@ class ShowPanel:
 
     def sync(self) -> None:
         """Show what is chosen, and the legend of the circles."""
-        show_value(self.handles.trails, self.session.shown.trails)
-        show_value(self.handles.visits, self.session.shown.visits)
+        self._mirror.show(self.handles.trails, self.session.shown.trails)
+        self._mirror.show(self.handles.visits, self.session.shown.visits)
         shown = self.session.shown.ranges
-        show_value(self.handles.ranges, _WORDS[shown])
+        self._mirror.show(self.handles.ranges, _WORDS[shown])
         text = (
             ""
             if shown == "none"

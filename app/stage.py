@@ -126,5 +126,5 @@ class Stage:
 def beside(shape: ArenaShape) -> tuple[float, float]:
     """Where the second arena is: to the right of the first, or below it if they are wide."""
     if shape.width > 2.0 * shape.length:
-        return 0.0, -(1.3 * shape.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
+        return 0.0, -(1.5 * shape.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
     return shape.width + 2 * MARGIN + _APART, 0.0

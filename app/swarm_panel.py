@@ -13,7 +13,7 @@ from geswarm.sim import load_scenario, scenario_names
 
 from .playback import SPEEDS
 from .session import Command, Session
-from .widgets import show_value
+from .widgets import Mirror
 
 _PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"
 _NOTHING = "nothing"
@@ -53,6 +53,7 @@ class SwarmPanel:
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._mirror = Mirror()
         self._score = ""
 
     def build(self, gui: viser.GuiApi) -> None:
@@ -122,12 +123,12 @@ class SwarmPanel:
             handles.play.icon = viser.Icon.PLAYER_PAUSE if playing else viser.Icon.PLAYER_PLAY
         handles.speed.label = f"Speed {speed_label(session.playback.speed)}"
         if session.loaded.name in handles.scenario.options:
-            show_value(handles.scenario, session.loaded.name)
+            self._mirror.show(handles.scenario, session.loaded.name)
         rival = session.rival.name if session.rival else _NOTHING
         offered = tuple(dict.fromkeys((_NOTHING, *session.rivals_offered(), rival)))
         if handles.compare.options != offered:
             handles.compare.options = offered
-        show_value(handles.compare, rival)
+        self._mirror.show(handles.compare, rival)
 
 
 def add_key(gui: viser.GuiApi, session: Session, key: Key, label: str, command: Command) -> None:
