@@ -16,18 +16,18 @@ from geswarm.cli import UsageError
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
 from geswarm.sim import Scenario, ScenarioError, load_scenario
 
-from .evolution import EvolutionThread
-from .evolution_panel import EvolutionPanel
-from .gate import ServerError, open_server
-from .inspector_panel import InspectorPanel
-from .record_panel import RecordPanel
-from .recorder import Recorder
-from .rule_page import RulePage
-from .scenario_panel import ScenarioPanel
-from .session import Session
-from .show_panel import ShowPanel
-from .stage import Stage
-from .swarm_panel import SwarmPanel
+from .panels.evolution_panel import EvolutionPanel
+from .panels.inspector_panel import InspectorPanel
+from .panels.record_panel import RecordPanel
+from .panels.rule_page import RulePage
+from .panels.scenario_panel import ScenarioPanel
+from .panels.show_panel import ShowPanel
+from .panels.swarm_panel import SwarmPanel
+from .scene.recorder import Recorder
+from .scene.stage import Stage
+from .server.gate import ServerError, open_server
+from .state.evolution import EvolutionThread
+from .state.session import Session
 
 FRAME_SECONDS = 1 / 30
 _SIMULATION_SHARE = 0.6  # of a frame; the rest is for the display

@@ -5,8 +5,8 @@ import shutil
 
 import pytest
 
-from geswarm.app.channel import Channel
-from geswarm.app.gate import open_server
+from geswarm.app.server.channel import Channel
+from geswarm.app.server.gate import open_server
 
 CHROMIUM_NAMES = ("chromium", "chromium-browser", "google-chrome")
 CHROMIUM_FLAGS = (

@@ -12,7 +12,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Response
 
 import geswarm
-from geswarm.app.document import RuleDocument
+from geswarm.app.state.document import RuleDocument
 from geswarm.rules import (
     FORAGING,
     EditError,

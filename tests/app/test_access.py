@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from websockets.datastructures import Headers, is_valid_header_value
 
-from geswarm.app.access import Access, is_loopback, parse_authority, parse_origin
+from geswarm.app.server.access import Access, is_loopback, parse_authority, parse_origin
 
 PORT = 8080
 HERE = Access("127.0.0.1")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from geswarm.app import palette
-from geswarm.app.arena import Arena
-from geswarm.app.view import ArenaView
+from geswarm.app.scene.arena import Arena
+from geswarm.app.state.view import ArenaView
 
 PAPER = SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0)
 WIDE = SimpleNamespace(width=21.0, length=4.2, nest=1.5, source=2.0, light=100.0)

@@ -5,11 +5,11 @@ import imageio.v3 as imageio
 import numpy as np
 import pytest
 
-from geswarm.app.arena import Arena
-from geswarm.app.camera import framing
-from geswarm.app.cameraman import Cameraman
-from geswarm.app.scenery import draw_backdrop, outer_points
-from geswarm.app.view import ArenaView
+from geswarm.app.scene.arena import Arena
+from geswarm.app.scene.camera import framing
+from geswarm.app.scene.cameraman import Cameraman
+from geswarm.app.scene.scenery import draw_backdrop, outer_points
+from geswarm.app.state.view import ArenaView
 
 from .test_arena import PAPER, WIDE
 from .test_camera import picture

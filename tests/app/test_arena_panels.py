@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import viser
 
-from geswarm.app.inspector_panel import compass, last_rule_html, robot_html
-from geswarm.app.record_panel import status
-from geswarm.app.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
-from geswarm.app.scenario_panel import VALUES
-from geswarm.app.stage import beside
+from geswarm.app.panels.inspector_panel import compass, last_rule_html, robot_html
+from geswarm.app.panels.record_panel import status
+from geswarm.app.panels.scenario_panel import VALUES
+from geswarm.app.scene.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
+from geswarm.app.scene.stage import beside
 from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.sim import NEEDS_RESET, World, load_scenario
 

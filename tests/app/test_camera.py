@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.app.camera import FIELD_OF_VIEW, framing
-from geswarm.app.scenery import outer_points
+from geswarm.app.scene.camera import FIELD_OF_VIEW, framing
+from geswarm.app.scene.scenery import outer_points
 
 
 def picture(points, pose, aspect):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.app.footbot import (
+from geswarm.app.scene.footbot import (
     HEIGHT,
     OBJECT_HEIGHT,
     OBJECT_RADIUS,
@@ -14,8 +14,8 @@ from geswarm.app.footbot import (
     puck,
     yaw_quaternions,
 )
-from geswarm.app.lettering import painted, text_width
-from geswarm.app.shapes import box, lathe, line, prism, rectangle
+from geswarm.app.scene.lettering import painted, text_width
+from geswarm.app.scene.shapes import box, lathe, line, prism, rectangle
 
 PARTS = vars(footbot())
 WORDS = ["NEST", "SOURCE", "1 m"]

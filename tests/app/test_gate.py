@@ -10,10 +10,10 @@ import viser
 import websockets.sync.client
 from websockets.asyncio.server import serve
 
-from geswarm.app import channel as channel_module
-from geswarm.app import gate
-from geswarm.app.channel import MAX_MESSAGE_BYTES, Channel
-from geswarm.app.gate import ServerError, open_server
+from geswarm.app.server import channel as channel_module
+from geswarm.app.server import gate
+from geswarm.app.server.channel import MAX_MESSAGE_BYTES, Channel
+from geswarm.app.server.gate import ServerError, open_server
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
 UPGRADE = {
@@ -166,13 +166,22 @@ def arrived():
 
 @pytest.fixture
 def channel(arrived):
-    return Channel(on_message=lambda client, message: arrived.append((client.number, message)))
+    channel = Channel(
+        on_message=lambda client, message: arrived.append((client.number, message)),
+        on_connect=lambda client: channel.welcome(client),
+    )
+    return channel
+
+
+def welcome(channel):
+    """How many pages hear broadcasts."""
+    return sum(client.welcome for client in channel.clients)
 
 
 def test_messages_go_both_ways(server, channel, arrived):
     with connect(server) as one, connect(server) as two:
         one.send('{"type": "edit", "p": 0.5}')
-        wait_until(lambda: arrived)
+        wait_until(lambda: arrived and welcome(channel) == 2)
         number, message = arrived[0]
         assert message == {"type": "edit", "p": 0.5}
         sender = next(client for client in channel.clients if client.number == number)
@@ -238,7 +247,7 @@ def test_page_is_greeted(server, channel):
 
 def test_newer_live_message_replaces_an_unsent_one(server, channel):
     with connect(server) as page:
-        wait_until(lambda: channel.clients)
+        wait_until(lambda: welcome(channel) == 1)
         entered, released = threading.Event(), threading.Event()
 
         def hold():
@@ -262,7 +271,7 @@ def test_stuck_page_is_cut_off_and_slows_no_other(server, channel, monkeypatch):
         stuck.sendall(f"GET /rules/socket HTTP/1.1\r\n{request}\r\n".encode())
         wait_until(lambda: channel.clients)
         with connect(server) as page:
-            wait_until(lambda: len(channel.clients) == 2)
+            wait_until(lambda: welcome(channel) == 2)
             sent = 0
             while len(channel.clients) == 2:
                 assert sent < 500

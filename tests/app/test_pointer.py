@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.app.pointer import Pointer, on_level
+from geswarm.app.scene.pointer import Pointer, on_level
 
 coordinate = st.floats(-10, 10)
 

@@ -4,9 +4,9 @@ import time
 
 import pytest
 
-from geswarm.app.evolution import EvolutionThread
-from geswarm.app.rule_page import RulePage
-from geswarm.app.session import Session
+from geswarm.app.panels.rule_page import RulePage
+from geswarm.app.state.evolution import EvolutionThread
+from geswarm.app.state.session import Session
 from geswarm.rules import format_text, load_preset, parse_yaml
 from geswarm.sim import load_scenario
 
@@ -21,6 +21,9 @@ class Recorder:
 
     def send(self, _client, message, *, live=False):
         self.messages.append(message)
+
+    def welcome(self, client):
+        pass
 
     def broadcast(self, message, *, live=False):
         self.messages.append(message)

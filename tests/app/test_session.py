@@ -6,10 +6,10 @@ import time
 import numpy as np
 import pytest
 
-from geswarm.app.evolution import EvolutionThread, Phase
-from geswarm.app.playback import Playback
-from geswarm.app.session import Session
-from geswarm.app.view import between
+from geswarm.app.state.evolution import EvolutionThread, Phase
+from geswarm.app.state.playback import Playback
+from geswarm.app.state.session import Session
+from geswarm.app.state.view import between
 from geswarm.experiment import RunConfig
 from geswarm.ge import Settings
 from geswarm.rules import EditError, RuleSetError, format_yaml, load_preset

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from geswarm.app.evolution import EvolutionThread
-from geswarm.app.rival import BEFORE, BEST
-from geswarm.app.session import Session
+from geswarm.app.state.evolution import EvolutionThread
+from geswarm.app.state.rival import BEFORE, BEST
+from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import World, load_scenario
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from geswarm.app.overlays import heat_map, trail_segments
-from geswarm.app.trace import SAMPLE_STEPS, TRAIL_SECONDS, Trace
+from geswarm.app.scene.overlays import heat_map, trail_segments
+from geswarm.app.state.trace import SAMPLE_STEPS, TRAIL_SECONDS, Trace
 from geswarm.rules import load_preset
 from geswarm.sim import World, load_scenario
 

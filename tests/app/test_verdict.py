@@ -5,9 +5,9 @@ import time
 
 import pytest
 
-from geswarm.app.background import Newest
-from geswarm.app.verdict import RUNS, Question, Verdict
-from geswarm.app.worth import WorthOfPieces, WorthQuestion
+from geswarm.app.state.background import Newest
+from geswarm.app.state.verdict import RUNS, Question, Verdict
+from geswarm.app.state.worth import WorthOfPieces, WorthQuestion
 from geswarm.experiment import evaluate_rule_sets
 from geswarm.rules import apply_edit, load_preset
 from geswarm.sim import load_scenario

@@ -1,6 +1,6 @@
 from types import SimpleNamespace
 
-from geswarm.app.widgets import Mirror
+from geswarm.app.panels.widgets import Mirror
 
 
 def test_what_the_user_has_just_chosen_is_not_overwritten():

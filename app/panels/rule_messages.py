@@ -22,12 +22,12 @@ from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.text import format_rule
 from geswarm.sim import WorldState
 
-from . import palette
-from .channel import Message
-from .document import RuleDocument
-from .insight import Insight
-from .verdict import RUNS, Answer
-from .worth import WorthAnswer
+from .. import palette
+from ..server.channel import Message
+from ..state.document import RuleDocument
+from ..state.insight import Insight
+from ..state.verdict import RUNS, Answer
+from ..state.worth import WorthAnswer
 
 
 def vocabulary_message() -> Message:

@@ -9,12 +9,12 @@ from typing import TypeAlias
 import numpy as np
 import viser
 
-from . import palette
+from .. import palette
+from ..palette import Colour
+from ..state.view import ArenaView, Kind
 from .footbot import footbot, puck, yaw_quaternions
-from .palette import Colour
 from .scenery import ArenaShape, draw_scenery
 from .shapes import Mesh
-from .view import ArenaView, Kind
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)

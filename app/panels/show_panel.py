@@ -7,11 +7,11 @@ from html import escape
 
 import viser
 
-from . import palette
-from .overlays import RANGE_COLOURS, sensing_ranges
-from .session import Session
-from .trace import TRAIL_SECONDS
-from .view import Whose
+from .. import palette
+from ..scene.overlays import RANGE_COLOURS, sensing_ranges
+from ..state.session import Session
+from ..state.trace import TRAIL_SECONDS
+from ..state.view import Whose
 from .widgets import Mirror
 
 _WHOSE: dict[str, Whose] = {"none": "none", "selected robot": "selected", "all robots": "all"}

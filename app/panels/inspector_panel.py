@@ -11,8 +11,8 @@ import viser
 from geswarm.rules import FORAGING, RuleSet
 from geswarm.sim import WorldState
 
-from . import palette
-from .session import Session
+from .. import palette
+from ..state.session import Session
 from .widgets import Mirror
 
 _TRUE, _FALSE = "#0f8a4f", "#8a8f98"

@@ -9,10 +9,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from .view import Kind
+from ..state.view import Kind
 
 if TYPE_CHECKING:
-    from .session import Command
+    from ..state.session import Command
 
 Vector: TypeAlias = npt.ArrayLike
 DragEvent: TypeAlias = viser.SceneNodeDragEvent[viser.BatchedMeshHandle]

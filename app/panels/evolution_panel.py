@@ -13,9 +13,9 @@ from viser._gui_handles import GuiProgressBarHandle
 from geswarm.experiment import RunConfig
 from geswarm.ge import Settings
 
-from .evolution import REFERENCES, EvolutionThread, Phase
-from .run_directory import new_run_directory
-from .session import Session
+from ..run_directory import new_run_directory
+from ..state.evolution import REFERENCES, EvolutionThread, Phase
+from ..state.session import Session
 
 _DASHED = uplot.Series(dash=(6.0, 4.0))
 _CURVES = (

@@ -6,8 +6,8 @@ from html import escape
 
 import viser
 
-from .recorder import FILE_NAME, LONGEST_SECONDS, Recorder, RecorderPhase
-from .session import Session
+from ..scene.recorder import FILE_NAME, LONGEST_SECONDS, Recorder, RecorderPhase
+from ..state.session import Session
 
 _START, _STOP = "Start recording", "Stop and download"
 

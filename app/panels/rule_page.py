@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 from geswarm.rules import FORMATS, EditError, RuleSetError, parse_text, simplify
 
+from ..server.channel import Channel, Client, Message
+from ..state.insight import Insight
+from ..state.session import Session
+from ..state.verdict import Answer
+from ..state.worth import WorthAnswer
 from . import rule_messages
-from .channel import Channel, Client, Message
-from .insight import Insight
-from .session import Session
-from .verdict import Answer
-from .worth import WorthAnswer
 
 LIVE_SECONDS = 0.1
 MAX_TEXT = 200_000
@@ -81,6 +81,7 @@ class RulePage:
         send(client, rule_messages.verdict_message(session.verdict.answer), live=True)
         if session.worth.answer is not None:
             send(client, rule_messages.worth_message(session.worth.answer), live=True)
+        self.channel.welcome(client)
 
     def _receive(self, client: Client, message: Message) -> None:
         kind, version = str(message.get("type")), self.session.document.version

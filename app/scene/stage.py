@@ -6,12 +6,12 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from ..state.session import Session
 from .arena import Arena
 from .cameraman import Cameraman
 from .overlays import Overlays
 from .pointer import Pointer
 from .scenery import LAMP_DISTANCE, MARGIN, ArenaShape, draw_backdrop, outer_points
-from .session import Session
 
 _TRAIL_SECONDS, _VISIT_SECONDS = 0.1, 0.5  # from one drawing to the next
 _APART = 0.35  # m between the tables of two arenas

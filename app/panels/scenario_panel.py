@@ -11,7 +11,7 @@ import viser
 
 from geswarm.sim import NEEDS_RESET, Scenario
 
-from .session import Session
+from ..state.session import Session
 from .widgets import Mirror
 
 APPLY_SECONDS = 0.6

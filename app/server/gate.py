@@ -164,7 +164,7 @@ def _check_address(host: str, port: int) -> None:
 
 def static_folder() -> Path:
     """The folder of the rule-table page: in the installed package, or beside app/ in a checkout."""
-    here = Path(__file__).resolve().parent
+    here = Path(__file__).resolve().parents[1]
     for folder in (here / "static", here.parent / "static"):
         if folder.is_dir():
             return folder

@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from . import palette
+from .. import palette
+from ..palette import Colour
 from .camera import ELEVATION, FORWARD
 from .lettering import painted, text_width
-from .palette import Colour
 from .shapes import Mesh, box, line, merged, rectangle
 
 WALL_HEIGHT = 0.07

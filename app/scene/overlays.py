@@ -10,12 +10,12 @@ import viser
 
 from geswarm.sim import Scenario
 
-from . import palette
+from .. import palette
+from ..palette import Colour
+from ..state.trace import Trace, Trails
+from ..state.view import ArenaView, Shown
 from .footbot import RADIUS
-from .palette import Colour
 from .shapes import Mesh, annulus
-from .trace import Trace, Trails
-from .view import ArenaView, Shown
 
 _ROOT = "/overlays"
 _RING_Z, _RANGE_Z, _TRAIL_Z, _VISITS_Z = 0.0090, 0.0084, 0.0074, 0.0045

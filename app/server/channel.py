@@ -32,10 +32,12 @@ class Client:
 
     Attributes:
         number: Counts from 1 over the life of the channel.
+        welcome: Whether broadcasts go to it; see `Channel.welcome`.
     """
 
     def __init__(self, number: int, connection: ServerConnection) -> None:
         self.number = number
+        self.welcome = False
         self._connection = connection
         self._waiting: dict[object, str] = {}
         self._filled = asyncio.Event()
@@ -95,9 +97,13 @@ class Channel:
         """
         self._post((client,), message, live)
 
+    def welcome(self, client: Client) -> None:
+        """From now on broadcasts go to this page too: it has been told how things stand."""
+        client.welcome = True
+
     def broadcast(self, message: Message, *, live: bool = False) -> None:
-        """Queue a message for every page; from any thread. Arguments as in `send`."""
-        if clients := self.clients:
+        """Queue a message for every page made welcome; from any thread. Arguments as in `send`."""
+        if clients := tuple(client for client in self.clients if client.welcome):
             self._post(clients, message, live)
 
     def _post(self, clients: tuple[Client, ...], message: Message, live: bool) -> None:

@@ -11,8 +11,8 @@ import viser
 
 from geswarm.sim import load_scenario, scenario_names
 
-from .playback import SPEEDS
-from .session import Command, Session
+from ..state.playback import SPEEDS
+from ..state.session import Command, Session
 from .widgets import Mirror
 
 _PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"

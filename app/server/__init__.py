@@ -1,0 +1,1 @@
+"""One port for everything, and who may use it."""
