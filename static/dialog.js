@@ -25,6 +25,8 @@ const KEYS = [
   ["Ctrl Z, Ctrl Shift Z", "Undo, redo"],
   ["Ctrl S", "Save as a file"],
   ["Ctrl Enter", "Apply the text (Text tab)"],
+  ["P, O, X", "Arena: play, pause, step"],
+  ["F, R", "Arena: fast-forward, reset"],
   ["?", "Show these keys"],
 ];
 

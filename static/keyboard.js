@@ -11,7 +11,11 @@ import { isEditing, isText } from "./grid.js";
 export function listenToKeys(session, table, grid, help) {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.target.closest?.("dialog")) return;
-    const act = wholePage(event, session) ?? withinRule(event, table) ?? elsewhere(event, grid, help);
+    const act =
+      wholePage(event, session) ??
+      withinRule(event, table) ??
+      elsewhere(event, grid, help) ??
+      arena(event, session);
     if (!act) return;
     event.preventDefault();
     act();
@@ -41,6 +45,13 @@ function withinRule(event, table) {
   const chip = chips.find((candidate) => candidate.node.contains(event.target));
   if (chip) return () => chip.remove();
   return event.target.closest(".part") ? null : () => card.remove();
+}
+
+/** The keys that play the arena, as in ARGoS: the page has the focus, the arena should not miss them. */
+function arena(event, session) {
+  if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return null;
+  const key = event.key.toUpperCase();
+  return "POXFR".includes(key) && key.length === 1 ? () => session.command({ type: "key", key }) : null;
 }
 
 function elsewhere(event, grid, help) {

@@ -8,6 +8,7 @@ from geswarm.rules import FORMATS, EditError, RuleSetError, parse_text, simplify
 
 from ..server.channel import Channel, Client, Message
 from ..state.insight import Insight
+from ..state.keys import COMMANDS
 from ..state.session import Session
 from ..state.verdict import Answer
 from ..state.worth import WorthAnswer
@@ -50,6 +51,7 @@ class RulePage:
             "check_text": self._check_text,
             "simplify": self._simplify,
             "take_simplified": self._take_simplified,
+            "key": self._press,
             "worth_start": lambda *_: session.weigh_pieces(),
             "worth_cancel": lambda *_: session.worth.forget(session.document.version),
         }
@@ -102,6 +104,13 @@ class RulePage:
         if not isinstance(edit, dict):
             raise EditError(f"expected an edit, got {edit!r}")
         self.session.edit(edit)
+
+    def _press(self, _client: Client, message: Message) -> None:
+        """A key of the arena that was pressed over the table."""
+        key = _text(message, "key")
+        if key not in COMMANDS:
+            raise EditError(f"unknown key {key!r}; expected one of {', '.join(COMMANDS)}")
+        COMMANDS[key](self.session)
 
     def _save(self, client: Client, message: Message) -> None:
         form = _text(message, "format")

@@ -5,29 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from html import escape
-from typing import Literal, TypeAlias
 
 import viser
 
 from geswarm.sim import load_scenario, scenario_names
 
+from ..state.keys import KEYS, Key
 from ..state.playback import SPEEDS
 from ..state.session import Command, Session
 from .widgets import Mirror
 
 _PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"
 _NOTHING = "nothing"
-
-Key: TypeAlias = Literal["P", "O", "X", "F", "R"]
-
-KEYS: tuple[tuple[Key, str, Command], ...] = (
-    ("P", "Play", lambda session: session.play()),
-    ("O", "Pause", lambda session: session.pause()),
-    ("X", "Step", lambda session: session.step()),
-    ("F", "Fast-forward, or back to 1x", lambda session: session.toggle_fastest()),
-    ("R", "Reset", lambda session: session.reset()),
-)
-"""Key, name and command: the keys are ARGoS's."""
 
 
 def speed_label(speed: float) -> str:

@@ -127,6 +127,13 @@ def test_saved_files_can_be_loaded_again(page):
     assert page.session.document.rule_set == EVO8
 
 
+def test_keys_of_the_arena_work_over_the_table_too(page):
+    page.say(type="key", key="P")
+    assert page.session.playback.playing
+    page.say(type="key", key="X")
+    assert (page.session.playback.playing, page.session.world.steps) == (False, 1)
+
+
 @pytest.mark.parametrize(
     "message",
     [
@@ -141,6 +148,7 @@ def test_saved_files_can_be_loaded_again(page):
         {"type": "load_text", "name": "x.yaml", "text": "rules: ["},
         {"type": "set_text", "text": "rule rule rule do"},
         {"type": "save", "format": "pickle"},
+        {"type": "key", "key": "Q"},
         {"type": "check_text", "text": "x" * 300_000},
     ],
 )

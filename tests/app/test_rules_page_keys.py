@@ -1,5 +1,7 @@
 """The rule table page in a real browser, without a mouse."""
 
+import time
+
 import pytest
 
 from geswarm.rules import load_preset
@@ -184,3 +186,19 @@ def test_tabs_are_changed_with_the_arrow_keys(page, server):
     press(page, "ArrowRight")
     focused(page, "tab-table")
     expect(page.get_by_test_id("rule-1")).to_be_visible()
+
+
+def test_the_keys_that_play_the_arena_are_passed_on(page, server):
+    page.get_by_test_id("rule-1-enabled").focus()
+    press(page, "p", "o", "x", "f", "r", "q")
+    page.get_by_test_id("rule-1-comment").focus()
+    page.keyboard.type("pox")
+    press(page, "Escape")
+    page.get_by_test_id("rule-1-enabled").focus()
+    press(page, "Shift+P", "Control+z")  # the undo comes last
+    deadline = time.monotonic() + 20
+    while not any(message["type"] == "undo" for message in server.received):
+        assert time.monotonic() < deadline
+        page.wait_for_timeout(10)
+    keys = [message["key"] for message in server.received if message["type"] == "key"]
+    assert "".join(keys) == "POXFRP"
