@@ -9,10 +9,12 @@ from geswarm.sim.scenario import (
     parse_scenario,
     scenario_names,
 )
-from geswarm.sim.world import World, WorldState
+from geswarm.sim.startup import is_compiled, warm_up
+from geswarm.sim.world import NEEDS_RESET, World, WorldState
 
 __all__ = [
     "CONTROL_STEP",
+    "NEEDS_RESET",
     "BatchResult",
     "EvaluationStopped",
     "Scenario",
@@ -21,7 +23,9 @@ __all__ = [
     "World",
     "WorldState",
     "evaluate",
+    "is_compiled",
     "load_scenario",
     "parse_scenario",
     "scenario_names",
+    "warm_up",
 ]

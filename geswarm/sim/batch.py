@@ -1,24 +1,51 @@
-"""Batch evaluation: many simulations to their end, by control table, on all cores."""
+"""Batch evaluation: many simulations to their end, by control table, on all cores.
+
+Small swarms run side by side, many simulations in one call of a kernel; large ones run one by one,
+with a search for neighbours that suits them. Which way is a matter of the scenario alone.
+"""
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.control_table import ControlTable
-from geswarm.sim.compiled import run_simulations
-from geswarm.sim.encoding import encode_scenario, encode_tables, room_for
-from geswarm.sim.kernels.state import COLLECTED, LOST, PICKED
+from geswarm.sim import footbot
+from geswarm.sim.compiled import run_lanes, run_simulation, start_lanes, start_world
+from geswarm.sim.encoding import (
+    Words,
+    encode_scenario,
+    encode_tables,
+    in_single_precision,
+    room_for,
+)
+from geswarm.sim.kernels.state import (
+    COLLECTED,
+    GROUP,
+    LANES,
+    LOST,
+    OBJECT_LANES,
+    PICKED,
+    ROBOT_LANES,
+)
 from geswarm.sim.scenario import Scenario
 
-_CHUNK_ROBOT_STEPS = 1_000_000
-"""Work between two looks at `stop`: a few hundredths of a second."""
+_ROBOT_STEPS_PER_CALL = 2_000_000
+"""Work between two looks at `stop`: up to about a tenth of a second."""
+_LANES_OF_A_VECTOR = 16
+_ROBOTS_SIDE_BY_SIDE, _OBJECTS_SIDE_BY_SIDE = 64, 128
+"""Beyond these, comparing each robot with each robot and object takes longer than a grid."""
+
+Stop: TypeAlias = Callable[[], bool]
+Counts: TypeAlias = npt.NDArray[np.int64]
+"""Shape (simulations, 3): picked, collected, lost."""
 
 
 class Simulation(NamedTuple):
@@ -55,7 +82,7 @@ def evaluate(
     simulations: Sequence[Simulation] | Sequence[tuple[int, int, int, int]],
     *,
     workers: int | None = None,
-    stop: Callable[[], bool] | None = None,
+    stop: Stop | None = None,
 ) -> BatchResult:
     """Run simulations; each result depends on its table, scenario and numbers alone.
 
@@ -77,25 +104,14 @@ def evaluate(
     todo = _checked(simulations, len(tables))
     tallies = np.zeros((len(todo), 3), dtype=np.int64)
     if len(todo):
-        physics = encode_scenario(scenario)
-        upto, outcomes = encode_tables(tables)
+        words = encode_tables(tables, scenario.zone_miss)
+        together = runs_side_by_side(scenario)
+        run_share = _run_side_by_side if together else _run_one_by_one
 
-        def run(chunk: slice) -> None:
-            if stop is not None and stop():
-                raise EvaluationStopped("the evaluation was stopped")
-            robots, objects = room_for(scenario)
-            run_simulations(
-                physics,
-                robots,
-                objects,
-                upto,
-                outcomes,
-                todo[chunk],
-                scenario.steps,
-                tallies[chunk],
-            )
+        def run(share: slice) -> None:
+            run_share(words, scenario, todo[share], tallies[share], stop)
 
-        _run_all(run, _chunks(len(todo), scenario.robots * scenario.steps, workers), workers)
+        _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
     return BatchResult(
         collected=tallies[:, COLLECTED].copy(),
         lost=tallies[:, LOST].copy(),
@@ -124,22 +140,117 @@ def _checked(
     return np.array(simulations, dtype=np.int64).reshape(-1, 4)
 
 
-def _chunks(simulations: int, robot_steps: int, workers: int) -> list[slice]:
-    """Contiguous shares: small enough to stop soon and to keep all workers busy to the end."""
-    size = min(_CHUNK_ROBOT_STEPS // robot_steps, -(-simulations // (4 * workers)))
-    size = max(1, size)
-    return [slice(first, first + size) for first in range(0, simulations, size)]
+def runs_side_by_side(scenario: Scenario) -> bool:
+    """Whether small swarms' way of running suits: few robots, and single precision is enough."""
+    turn = min(
+        scenario.turn_gain * np.pi,
+        2.0 * scenario.max_speed / footbot.WHEEL_BASE,
+    )
+    extent = max(scenario.width, scenario.length)
+    advance = scenario.max_speed * footbot.CONTROL_STEP
+    return bool(
+        scenario.robots <= _ROBOTS_SIDE_BY_SIDE
+        and scenario.objects <= _OBJECTS_SIDE_BY_SIDE
+        and turn * footbot.CONTROL_STEP <= np.pi / 2.0  # for which its sine is good
+        and advance >= extent / 2.0**15  # a thousand times what positions are rounded to
+    )
 
 
-def _run_all(run: Callable[[slice], None], chunks: list[slice], workers: int) -> None:
-    """Run all chunks; the first exception ends it."""
-    if workers == 1 or len(chunks) == 1:
-        for chunk in chunks:
-            run(chunk)
+def _ones(simulations: int) -> list[slice]:
+    return [slice(number, number + 1) for number in range(simulations)]
+
+
+def _shares(simulations: int, workers: int) -> list[slice]:
+    """Contiguous shares of at most LANES: as many for each worker, whole vectors but the last."""
+    vectors = -(-simulations // _LANES_OF_A_VECTOR)
+    per_worker = -(-vectors * _LANES_OF_A_VECTOR // (LANES * workers))
+    number = min(vectors, workers * per_worker)
+    ends = [_LANES_OF_A_VECTOR * (vectors * k // number) for k in range(number + 1)]
+    return [slice(*pair) for pair in itertools.pairwise(ends)]
+
+
+class Group:
+    """Up to LANES simulations side by side; the last vector is filled with copies of the last one.
+
+    Attributes:
+        robots: Of ROBOT_LANES, shape (robots,).
+        objects: Of OBJECT_LANES, shape (objects,).
+        counts: Of GROUP.
+    """
+
+    def __init__(self, words: Words, scenario: Scenario, simulations: Counts) -> None:
+        """Start simulations (table, seed, individual, replicate)."""
+        self.width = _LANES_OF_A_VECTOR * -(-len(simulations) // _LANES_OF_A_VECTOR)
+        filled = np.pad(simulations, ((0, self.width - len(simulations)), (0, 0)), mode="edge")
+        self.robots = np.zeros(scenario.robots, dtype=ROBOT_LANES)
+        self.objects = np.zeros(scenario.objects, dtype=OBJECT_LANES)
+        self.counts = np.zeros(1, dtype=GROUP)[0]
+        self.counts["table"][: self.width] = filled[:, 0] * words.words[0].size
+        self._words = words
+        physics = encode_scenario(scenario)
+        self._physics = in_single_precision(physics)
+        room = room_for(scenario)
+        start_lanes(physics, *room[:4], filled, self.robots, self.objects)
+
+    def run(self, first: int, steps: int) -> None:
+        """Run control steps first..first+steps-1."""
+        words = self._words.words.reshape(-1)
+        slot_bits = self._words.slot_bits
+        run_lanes(
+            self._physics,
+            self.robots,
+            self.objects,
+            self.counts,
+            words,
+            slot_bits,
+            self.width,
+            first,
+            steps,
+        )
+
+
+def _run_side_by_side(
+    words: Words, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+) -> None:
+    """Run at most LANES simulations."""
+    group = Group(words, scenario, simulations)
+    for first, steps in _segments(scenario, group.width, stop):
+        group.run(first, steps)
+    for position, name in ((PICKED, "picked"), (COLLECTED, "collected"), (LOST, "lost")):
+        tallies[:, position] = group.counts[name][: len(tallies)]
+
+
+def _run_one_by_one(
+    words: Words, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+) -> None:
+    """Run simulations one after the other."""
+    physics = encode_scenario(scenario)
+    room = room_for(scenario)
+    for (table, *key), tally in zip(simulations.tolist(), tallies, strict=True):
+        start_world(physics, *room[:4], *key)
+        of_table = words.words[table]
+        for first, steps in _segments(scenario, 1, stop):
+            run_simulation(physics, *room, tally, of_table, words.slot_bits, first, steps)
+
+
+def _segments(scenario: Scenario, lanes: int, stop: Stop | None) -> Iterator[tuple[int, int]]:
+    """(first control step, number of steps) of each call of a kernel; asks `stop` before each."""
+    length = max(1, _ROBOT_STEPS_PER_CALL // (scenario.robots * lanes))
+    for first in range(0, scenario.steps, length):
+        if stop is not None and stop():
+            raise EvaluationStopped("the evaluation was stopped")
+        yield first, min(length, scenario.steps - first)
+
+
+def _run_all(run: Callable[[slice], None], shares: list[slice], workers: int) -> None:
+    """Run all shares; the first exception ends it."""
+    if workers == 1 or len(shares) == 1:
+        for share in shares:
+            run(share)
         return
-    pool = ThreadPoolExecutor(min(workers, len(chunks)), thread_name_prefix="geswarm-evaluate")
+    pool = ThreadPoolExecutor(min(workers, len(shares)), thread_name_prefix="geswarm-evaluate")
     try:
-        futures = [pool.submit(run, chunk) for chunk in chunks]
+        futures = [pool.submit(run, share) for share in shares]
         wait(futures, return_when=FIRST_EXCEPTION)
         for future in futures:
             if future.done():

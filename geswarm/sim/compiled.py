@@ -10,7 +10,7 @@ from __future__ import annotations
 import zlib
 from pathlib import Path
 
-from geswarm.sim.kernels import run
+from geswarm.sim.kernels import lanes, run, table
 
 
 def _fingerprint(folder: Path) -> int:
@@ -21,8 +21,12 @@ def _fingerprint(folder: Path) -> int:
     return checksum
 
 
-_VERSION = _fingerprint(Path(run.__file__).parent)
+VERSION = _fingerprint(Path(run.__file__).parent)
+"""Checksum of the sources from which the kernels are compiled."""
 
-start_world = run.build_start(_VERSION)
-run_world = run.build_run_world(_VERSION)
-run_simulations = run.build_run_simulations(_VERSION)
+start_world = run.build_start(VERSION)
+run_world = run.build_run_world(VERSION)
+run_simulation = run.build_run_simulation(VERSION)
+start_lanes = lanes.build_start_lanes(VERSION)
+run_lanes = lanes.build_run_lanes(VERSION)
+fill_slots = table.build_fill_slots(VERSION)

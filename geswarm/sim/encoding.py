@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +15,15 @@ from geswarm.rules.control_table import ControlTable
 from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim import footbot
-from geswarm.sim.kernels.state import ACTION, ROBOT, RULE, Physics
+from geswarm.sim.compiled import fill_slots
+from geswarm.sim.kernels.state import ACTION, BEHAVIOURS, ROBOT, RULE, SLOT, Physics
+from geswarm.sim.kernels.table import MEMORIES
 from geswarm.sim.scenario import Scenario
 
 Records: TypeAlias = npt.NDArray[np.void]
+
+_ALL_PAIRS_UP_TO = 32
+"""Number of robots up to which comparing each with each is faster than a grid."""
 
 
 def encode_scenario(scenario: Scenario) -> Physics:
@@ -44,19 +51,72 @@ def encode_scenario(scenario: Scenario) -> Physics:
     )
 
 
-def room_for(scenario: Scenario) -> tuple[Records, npt.NDArray[np.float64]]:
-    """Arrays for the robots and the objects of one simulation, to be filled by a kernel."""
-    return np.zeros(scenario.robots, dtype=ROBOT), np.zeros((scenario.objects, 2))
+def in_single_precision(physics: Physics) -> Physics:
+    """The scenario in numbers of numpy.float32."""
+    single: Any = np.array(physics, dtype=np.float32)
+    return Physics(*single)
 
 
-def encode_tables(
-    tables: Sequence[ControlTable],
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.uint8]]:
-    """Control tables for drawing by one random number u: the first k with u < upto[k].
+class Room(NamedTuple):
+    """Arrays for one simulation, in the order in which the kernels take them.
 
-    Returns:
-        `upto` (cumulative probabilities, likeliest outcome first, so that few comparisons are
-        needed) and `outcomes` (their numbers), each of shape (tables, situations, outcomes).
+    Attributes:
+        robots: Of ROBOT, shape (robots,).
+        slots: Of SLOT, for sorting a large swarm by cell, shape (robots,); empty for a small one.
+        starts: int32, where each cell starts in `slots`, shape (columns, rows + 1).
+        objects: float64, positions, shape (objects, 2).
+        heads: int32, the first object of each cell of the source, shape (columns, rows).
+        following: int32, the next object in the same cell, shape (objects,).
+    """
+
+    robots: Records
+    slots: Records
+    starts: npt.NDArray[np.int32]
+    objects: npt.NDArray[np.float64]
+    heads: npt.NDArray[np.int32]
+    following: npt.NDArray[np.int32]
+
+
+def room_for(scenario: Scenario) -> Room:
+    """Room for one simulation, to be filled by a kernel."""
+    large = scenario.robots > _ALL_PAIRS_UP_TO
+    touch = 2.0 * (footbot.RADIUS + scenario.max_speed * footbot.CONTROL_STEP)
+    sight = max(scenario.rab_range, 2.0 * touch)
+    columns, rows = _grid(scenario.width, scenario.length, sight, 4 * scenario.robots)
+    source_columns, source_rows = _grid(
+        scenario.width, scenario.source, scenario.grip_reach, scenario.objects
+    )
+    return Room(
+        robots=np.zeros(scenario.robots, dtype=ROBOT),
+        slots=np.zeros(scenario.robots if large else 0, dtype=SLOT),
+        starts=np.zeros((columns, rows + 1) if large else (0, 1), dtype=np.int32),
+        objects=np.zeros((scenario.objects, 2)),
+        heads=np.zeros((source_columns, source_rows), dtype=np.int32),
+        following=np.zeros(scenario.objects, dtype=np.int32),
+    )
+
+
+def _grid(width: float, length: float, least: float, cells: int) -> tuple[int, int]:
+    """Columns and rows of a grid of about so many cells, none narrower than `least`."""
+    side = max(least, math.sqrt(width * length / cells))
+    return max(1, int(width / side)), max(1, int(length / side))
+
+
+@dataclass(frozen=True)
+class Words:
+    """Control tables as the kernels draw from them, see `geswarm.sim.kernels.table`.
+
+    Attributes:
+        words: uint32, shape (tables, situations, slots).
+        slot_bits: Logarithm of the number of slots.
+    """
+
+    words: npt.NDArray[np.uint32]
+    slot_bits: int
+
+
+def encode_tables(tables: Sequence[ControlTable], zone_miss: float) -> Words:
+    """Control tables for drawing by one random number.
 
     Raises:
         ValueError: A table is for another vocabulary than the one that the simulator implements.
@@ -68,12 +128,20 @@ def encode_tables(
                 f"{', '.join(table.vocabulary.behaviour_index)}"
             )
     probabilities = np.stack([table.probabilities for table in tables])
-    outcomes = np.argsort(-probabilities, axis=2, kind="stable")
-    upto = np.cumsum(np.take_along_axis(probabilities, outcomes, axis=2), axis=2)
-    # Rounding must not leave a gap below 1, nor an impossible outcome a part of it.
-    possible = np.count_nonzero(probabilities > 0.0, axis=2)
-    upto[np.arange(upto.shape[2]) >= possible[:, :, None] - 1] = 1.0
-    return upto, outcomes.astype(np.uint8)
+    outcomes = probabilities.shape[2]
+    # Axes: table, HAS_OBJECT, zones, behaviour, DROP_OBJECT, WANT_OBJECT, outcome.
+    seen = probabilities.reshape(len(tables), 2, 4, BEHAVIOURS, 2, 2, outcomes)
+    lasting = seen[:, :, :, :, 0]  # DROP_OBJECT is false when a step begins
+    mixed = (1.0 - zone_miss) * lasting + zone_miss * lasting[:, :, :1]
+    by_memory = np.zeros((len(tables), 4, 2, BEHAVIOURS + 1, 2, outcomes))
+    by_memory[:, :, :, :BEHAVIOURS] = mixed.swapaxes(1, 2)
+    by_memory[:, :, :, BEHAVIOURS, :, 0] = 1.0  # there is no such behaviour
+    rows = by_memory.reshape(-1, outcomes)
+    slot_bits = int(np.count_nonzero(rows, axis=1).max() - 1).bit_length()
+    slots = 1 << slot_bits
+    words = np.empty((len(rows), slots), dtype=np.uint32)
+    fill_slots(rows, words, np.empty(slots), np.empty(slots, dtype=np.uint32))
+    return Words(words.reshape(len(tables), 4 * MEMORIES, -1), slot_bits)
 
 
 def encode_rules(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> tuple[Records, Records]:

@@ -45,8 +45,8 @@ class Parameter:
 
 
 PARAMETERS: Mapping[str, Parameter] = {
-    "robots": Parameter(int, 1, 10_000),
-    "objects": Parameter(int, 1, 10_000),
+    "robots": Parameter(int, 1, 200_000),
+    "objects": Parameter(int, 1, 200_000),
     "duration": Parameter(float, footbot.CONTROL_STEP, 1e7, " s"),
     "width": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "length": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),

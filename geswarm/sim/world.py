@@ -11,9 +11,12 @@ import numpy.typing as npt
 from geswarm.rules.model import RuleSet
 from geswarm.sim import footbot
 from geswarm.sim.compiled import run_world, start_world
-from geswarm.sim.encoding import encode_rules, encode_scenario, room_for
+from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
 from geswarm.sim.kernels.state import COLLECTED, LOST, PICKED
 from geswarm.sim.scenario import Scenario
+
+NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")
+"""Parameters of a scenario that a run cannot go on with if they change."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ class World:
         self._scenario = scenario
         self._physics = encode_scenario(scenario)
         self._seed = seed
-        self._robots, self._objects = room_for(scenario)
+        self._use(room_for(scenario))
         self._tally = np.zeros(3, dtype=np.int64)
         self.set_rules(rule_set)
         self.reset(seed)
@@ -159,8 +162,7 @@ class World:
             raise ValueError(f"n: expected at least 0, got {n}")
         run_world(
             self._physics,
-            self._robots,
-            self._objects,
+            *self._room,
             self._tally,
             self._rules,
             self._actions,
@@ -179,6 +181,34 @@ class World:
         self._rule_set = rule_set
         self._robots["last_rule"] = -1
 
+    def set_scenario(self, scenario: Scenario) -> bool:
+        """Go on in another scenario from the next step on, or start again in it.
+
+        The run goes on as it is if robots, objects, arena and zones are the same: a random heading
+        is kept for its old time, and objects stay where they lie. Otherwise it starts again with
+        the same seed.
+
+        Returns:
+            True if the run goes on.
+        """
+        goes_on = all(
+            getattr(scenario, name) == getattr(self._scenario, name) for name in NEEDS_RESET
+        )
+        self._scenario = scenario
+        self._physics = encode_scenario(scenario)
+        room = room_for(scenario)
+        if goes_on:
+            room.robots[:] = self._robots
+            room.objects[:] = self._objects
+        self._use(room)
+        if not goes_on:
+            self.reset()
+        return goes_on
+
+    def _use(self, room: Room) -> None:
+        self._room = room
+        self._robots, self._objects = room.robots, room.objects
+
     def reset(self, seed: int | None = None) -> None:
         """Start again, with the same seed unless another one is given.
 
@@ -193,7 +223,7 @@ class World:
         self._tally[:] = 0
         self._rules["fired"] = 0
         self._actions["fired"] = 0
-        start_world(self._physics, self._robots, self._objects, seed)
+        start_world(self._physics, *self._room[:4], seed, 0, 0)
 
     def move_robot(self, i: int, x: float, y: float) -> None:
         """Put robot i at (x, y) (m), or at the nearest place inside the walls.

@@ -241,27 +241,19 @@ def by_rules(rule_set, rule_counts=None, action_counts=None):
     return decide
 
 
-def by_table(table):
-    """Decide by one draw from the control table, the likeliest outcome first."""
+def by_table(words, slot_bits):
+    """Decide by one draw from the slots of a control table, which knows about missed zones."""
     indexing = Indexing.of(FORAGING)
     names = [entry.name for entry in FORAGING.behaviours]
     state_names = [entry.name for entry in FORAGING.internal_states]
 
     def decide(robot, now):
-        percepts = bits(robot.percepts, [entry.name for entry in FORAGING.preconditions])
-        row = table.probabilities[
-            indexing.situation(
-                percepts, names.index(robot.behaviour), bits(robot.states, state_names)
-            )
-        ]
-        u = draw(robot.key, now, OUTCOME)
-        columns = sorted(range(len(row)), key=lambda column: (-row[column], column))
-        possible = [column for column in columns if row[column] > 0]
-        upto = 0.0
-        for chosen in possible:
-            upto += row[chosen]
-            if u < upto:
-                break
+        zones = robot.percepts["ON_NEST"] + 2 * robot.percepts["ON_SOURCE"]
+        memory = 8 * robot.carried + 2 * names.index(robot.behaviour) + robot.states["WANT_OBJECT"]
+        slot, rest = divmod(int(draw(robot.key, now, OUTCOME) * 2**32), 2 ** (32 - slot_bits))
+        word = int(words[16 * zones + memory, slot])
+        first, other = word // 32 % 32, word % 32
+        chosen = first if rest * 2**slot_bits // 2**10 < word // 2**10 else other
         behaviour, states, restart = indexing.describe_outcome(chosen)
         robot.behaviour = names[behaviour]
         robot.states = {name: bool(states >> bit & 1) for bit, name in enumerate(state_names)}

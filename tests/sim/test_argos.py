@@ -5,8 +5,10 @@ import re
 from pathlib import Path
 
 import pytest
+from scipy import stats
 
 from geswarm.rules import ControlTable, load_preset
+from geswarm.sim import batch
 from geswarm.sim.batch import evaluate
 from geswarm.sim.scenario import load_scenario
 from geswarm.sim.world import World
@@ -47,3 +49,17 @@ def test_world_agrees_with_argos(rules):
         world.step(scenario.steps)
         collected.append(world.collected)
     assert sum(collected) / RUNS == pytest.approx(case["mean"], rel=TOLERANCE)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("case", CASES, ids=name_of)
+def test_both_ways_of_running_have_the_same_distribution(case, monkeypatch):
+    table = ControlTable.compile(load_preset(case["rules"]))
+    scenario = scenario_of(case)
+    runs = [(0, seed, 0, 0) for seed in range(300)]
+    side_by_side = evaluate([table], scenario, runs).collected
+    monkeypatch.setattr(batch, "runs_side_by_side", lambda _: False)
+    one_by_one = evaluate([table], scenario, runs).collected
+    assert stats.ks_2samp(side_by_side, one_by_one).pvalue > 1e-3
+    assert stats.ttest_ind(side_by_side, one_by_one).pvalue > 1e-3
+    assert side_by_side.mean() == pytest.approx(case["mean"], rel=TOLERANCE)

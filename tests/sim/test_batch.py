@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import stats
 
 from geswarm.rules import FORAGING, ControlTable, RuleSet, Vocabulary, load_preset
 from geswarm.sim import batch
-from geswarm.sim.batch import EvaluationStopped, Simulation, evaluate
+from geswarm.sim.batch import EvaluationStopped, Simulation, evaluate, runs_side_by_side
 from geswarm.sim.scenario import load_scenario
 
 TABLES = [ControlTable.compile(load_preset(name)) for name in ("hand-coded", "evo8")]
@@ -33,14 +34,62 @@ def test_results(one_by_one):
 
 
 @given(st.permutations(range(24)), st.integers(1, 5), st.integers(1, 10**7))
-@settings(max_examples=6)
-def test_order_split_and_workers_do_not_matter(one_by_one, order, workers, chunk):
-    before, batch._CHUNK_ROBOT_STEPS = batch._CHUNK_ROBOT_STEPS, chunk
+@settings(max_examples=6, deadline=None)
+def test_order_segments_and_workers_do_not_matter(one_by_one, order, workers, segment):
+    before, batch._ROBOT_STEPS_PER_CALL = batch._ROBOT_STEPS_PER_CALL, max(segment, 10_000)
     try:
         result = evaluate(TABLES, SHORT, [SIMULATIONS[k] for k in order], workers=workers)
     finally:
-        batch._CHUNK_ROBOT_STEPS = before
+        batch._ROBOT_STEPS_PER_CALL = before
     np.testing.assert_array_equal(counts(result), one_by_one[order])
+
+
+@pytest.mark.parametrize("simulations", [1, 15, 16, 17, 63, 64, 65, 200, 300])
+@pytest.mark.parametrize("workers", [1, 2, 3, 64])
+def test_shares(simulations, workers):
+    shares = [range(simulations)[share] for share in batch._shares(simulations, workers)]
+    assert [number for share in shares for number in share] == list(range(simulations))
+    assert all(0 < len(share) <= 64 for share in shares)
+    assert all(len(share) % 16 == 0 for share in shares[:-1])
+
+
+def test_neighbours_in_a_full_group_do_not_matter():
+    scenario = SHORT.with_changes(duration=60.0)
+    simulations = [Simulation(k % 2, k) for k in range(64)]
+    together = counts(evaluate(TABLES, scenario, simulations, workers=1))
+    backwards = counts(evaluate(TABLES, scenario, simulations[::-1], workers=1))
+    narrow = counts(evaluate(TABLES, scenario, simulations[37:51], workers=1))
+    np.testing.assert_array_equal(together, backwards[::-1])
+    np.testing.assert_array_equal(together[37:51], narrow)
+
+
+def test_large_swarms_run_one_by_one():
+    scenario = SHORT.with_changes(robots=70, width=14.0, objects=40, duration=30.0)
+    assert runs_side_by_side(SHORT)
+    for unsuited in (
+        scenario,
+        SHORT.with_changes(objects=200),
+        SHORT.with_changes(max_speed=3.0, turn_gain=20.0),
+        SHORT.with_changes(max_speed=1e-4),
+    ):
+        assert not runs_side_by_side(unsuited)
+    simulations = SIMULATIONS[:4]
+    result = counts(evaluate(TABLES, scenario, simulations, workers=2))
+    assert result[:, 2].min() > 0
+    single = [counts(evaluate(TABLES, scenario, [simulation])) for simulation in simulations]
+    np.testing.assert_array_equal(result, np.concatenate(single))
+
+
+@pytest.mark.parametrize("rules", [0, 1])
+def test_both_ways_of_running_collect_alike(rules, monkeypatch):
+    simulations = [Simulation(rules, seed) for seed in range(120)]
+    scenario = SHORT.with_changes(duration=1000.0)
+    together = evaluate(TABLES, scenario, simulations)
+    monkeypatch.setattr(batch, "runs_side_by_side", lambda _: False)
+    apart = evaluate(TABLES, scenario, simulations)
+    for name in ("collected", "picked"):
+        assert stats.ttest_ind(getattr(together, name), getattr(apart, name)).pvalue > 1e-3
+        assert stats.ks_2samp(getattr(together, name), getattr(apart, name)).pvalue > 1e-3
 
 
 def test_every_part_of_the_key_counts():
@@ -66,9 +115,6 @@ def test_stop_ends_it():
     for workers in (1, 2):
         with pytest.raises(EvaluationStopped):
             evaluate(TABLES, SHORT, SIMULATIONS, workers=workers, stop=stop.is_set)
-    asked = iter([False, False, True, True, True, True])
-    with pytest.raises(EvaluationStopped):
-        evaluate(TABLES, SHORT, SIMULATIONS, workers=1, stop=lambda: next(asked))
     assert evaluate(TABLES, SHORT, SIMULATIONS[:2], stop=lambda: False).picked.shape == (2,)
 
 
@@ -95,3 +141,11 @@ def test_bad_workers_and_vocabulary():
     table = ControlTable(TABLES[0].probabilities, other)
     with pytest.raises(ValueError, match=r"tables\[1\]: expected the foraging vocabulary"):
         evaluate([TABLES[0], table], SHORT, SIMULATIONS)
+
+
+@pytest.mark.parametrize("robots", [5, 100])
+def test_stop_ends_a_long_simulation(robots):
+    asked = iter([False, False, True])
+    scenario = SHORT.with_changes(robots=robots, width=20.0, duration=1e7)
+    with pytest.raises(EvaluationStopped):
+        evaluate(TABLES, scenario, SIMULATIONS[:1], workers=1, stop=lambda: next(asked))

@@ -155,6 +155,30 @@ def test_dragging():
         world.move_robot(0, float("nan"), 0)
 
 
+def test_a_scenario_changed_in_its_physics_keeps_the_run():
+    world = World(PAPER, EVO8, 1)
+    world.step(3000)
+    before = world.state
+    slow = PAPER.with_changes(max_speed=0.01, zone_miss=0.0, random_walk=(1.0, 2.0))
+    assert world.set_scenario(slow)
+    assert world.scenario is slow
+    assert same(before, world.state)
+    world.step(10)
+    moved = np.hypot(world.state.x - before.x, world.state.y - before.y)
+    assert 0 < moved.max() <= 0.01 + 1e-9
+    assert world.steps == 3010
+
+
+def test_a_scenario_that_does_not_fit_the_run_starts_again():
+    for changes in ({"robots": 7}, {"objects": 3}, {"width": 3.0}, {"source": 1.0}):
+        world = World(PAPER, EVO8, 1)
+        world.step(3000)
+        other = PAPER.with_changes(**changes)
+        assert not world.set_scenario(other)
+        assert same(World(other, EVO8, 1).state, world.state)
+        world.step(100)
+
+
 def test_kind_errors():
     with pytest.raises(ValueError, match="seed: expected 0 <= seed < 2\\*\\*63, got -1"):
         World(PAPER, EVO8, -1)

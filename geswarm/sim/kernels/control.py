@@ -6,11 +6,19 @@ from typing import Any
 
 import numpy as np
 
-from geswarm.sim.kernels.draws import FIRST_ACTION, OBJECT_X, OBJECT_Y, OUTCOME, ZONE_MISS, draw
+from geswarm.sim.kernels.draws import (
+    FIRST_ACTION,
+    OBJECT_X,
+    OBJECT_Y,
+    OUTCOME,
+    ZONE_MISS,
+    draw,
+    draw_bits,
+)
 from geswarm.sim.kernels.jit import inlined
+from geswarm.sim.kernels.neighbours import insert_object, nearest_object, remove_object
 from geswarm.sim.kernels.placement import place_object
 from geswarm.sim.kernels.state import (
-    BEHAVIOURS,
     COLLECTED,
     DROP_OBJECT,
     HAS_OBJECT,
@@ -23,6 +31,7 @@ from geswarm.sim.kernels.state import (
     WANT_OBJECT,
     Physics,
 )
+from geswarm.sim.kernels.table import MEMORIES, memory_of, outcome_of, slot_of
 
 
 @inlined
@@ -30,33 +39,35 @@ def sense(physics: Physics, robot: Any, step: int) -> None:
     """Percept bits: the zones from the robot's centre, unless missed; the gripper exactly."""
     percepts = HAS_OBJECT if robot.carried else 0
     if draw(robot.key, step, ZONE_MISS) >= physics.zone_miss:
-        if robot.y < physics.nest_edge:
-            percepts |= ON_NEST
-        if robot.y > physics.source_edge:
-            percepts |= ON_SOURCE
+        percepts |= zones_at(physics, robot.y)
     robot.percepts = percepts
 
 
 @inlined
-def decide_by_table(
-    upto: np.ndarray, outcomes: np.ndarray, table: int, robot: Any, step: int
-) -> bool:
+def zones_at(physics: Physics, y: float) -> int:
+    """Percept bits of the zone that a place is in."""
+    if y < physics.nest_edge:
+        return ON_NEST
+    return ON_SOURCE if y > physics.source_edge else 0
+
+
+@inlined
+def decide_by_table(physics: Physics, table: Any, slot_bits: int, robot: Any, step: int) -> bool:
     """Draw the step's outcome from the control table; True if a random walk starts afresh.
 
     Args:
-        upto: Cumulative probabilities, shape (tables, situations, outcomes), likeliest outcome
-            first.
-        outcomes: The outcomes in that order, same shape.
-        table: Which table.
+        physics: Scenario in numbers.
+        table: Words of one control table, which knows about missed zones; shape (situations,
+            slots).
+        slot_bits: Logarithm of the number of slots.
         robot: Updated in place.
         step: Control step.
     """
-    situation = (robot.percepts * BEHAVIOURS + robot.behaviour) * STATES + robot.states
-    u = draw(robot.key, step, OUTCOME)
-    k = 0
-    while u >= upto[table, situation, k]:
-        k += 1
-    outcome = outcomes[table, situation, k]
+    low, high = np.uint32(robot.key & np.uint64(0xFFFFFFFF)), np.uint32(robot.key >> np.uint64(32))
+    bits = draw_bits(low, high, step, OUTCOME)
+    memory = memory_of(robot.carried, robot.behaviour, robot.states & WANT_OBJECT)
+    word = table[zones_at(physics, robot.y) * MEMORIES + memory, slot_of(bits, slot_bits)]
+    outcome = outcome_of(word, bits, slot_bits)
     robot.behaviour = outcome // (2 * STATES)
     robot.states = (outcome // 2) % STATES
     return bool(outcome % 2 == 1)
@@ -94,7 +105,13 @@ def decide_by_rules(rules: Any, actions: Any, robot: Any, step: int) -> bool:
 
 @inlined
 def act_on_objects(
-    physics: Physics, objects: np.ndarray, tally: np.ndarray, robot: Any, step: int
+    physics: Physics,
+    objects: np.ndarray,
+    heads: np.ndarray,
+    following: np.ndarray,
+    tally: np.ndarray,
+    robot: Any,
+    step: int,
 ) -> None:
     """Drop, then pick up; DROP_OBJECT is false again afterwards."""
     if robot.states & DROP_OBJECT:
@@ -106,23 +123,11 @@ def act_on_objects(
         return
     if robot.y < physics.source_edge - physics.grip_reach:
         return  # objects lie in the source only
-    nearest = _nearest_object(objects, robot.x, robot.y, physics.grip_reach)
+    nearest = nearest_object(physics, objects, heads, following, robot.x, robot.y)
     if nearest >= 0:
         robot.carried = True
         tally[PICKED] += 1
+        remove_object(physics, objects, heads, following, nearest)
         u = draw(robot.key, step, OBJECT_X)
         place_object(physics, objects, nearest, u, draw(robot.key, step, OBJECT_Y))
-
-
-@inlined
-def _nearest_object(objects: np.ndarray, x: float, y: float, reach: float) -> int:
-    """The nearest object within reach, or -1."""
-    nearest = -1
-    nearest_d2 = reach * reach
-    for o in range(len(objects)):
-        dx = objects[o, 0] - x
-        dy = objects[o, 1] - y
-        d2 = dx * dx + dy * dy
-        if d2 <= nearest_d2:
-            nearest, nearest_d2 = o, d2
-    return nearest
+        insert_object(physics, objects, heads, following, nearest)

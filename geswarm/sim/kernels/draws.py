@@ -4,7 +4,7 @@ No two decisions of a robot share a purpose within a step, so no two decisions e
 
 | purpose         | key   | step          | decides                                              |
 | --------------- | ----- | ------------- | ---------------------------------------------------- |
-| ZONE_MISS       | robot | control step  | whether the zones go unnoticed in this step          |
+| ZONE_MISS       | robot | control step  | whether the zones go unnoticed; not with a table     |
 | OUTCOME         | robot | control step  | the outcome of the control table                     |
 | WALK_HEADING    | robot | control step  | a fresh heading of the random walk                   |
 | WALK_TIME       | robot | control step  | how long that heading is kept                        |
@@ -61,6 +61,14 @@ def make_key(seed: int, individual: int, replicate: int, robot: int) -> np.uint6
 
 
 @inlined
+def draw_bits(low: np.uint32, high: np.uint32, step: int, purpose: int) -> Any:
+    """32 random bits; `low` and `high` are the halves of a key, the rest as for `draw`."""
+    h = _mix(np.uint32(np.uint32(np.uint32(step) * np.uint32(0x9E3779B9)) + low))
+    h = np.uint32(h ^ high)
+    return _mix(np.uint32(h + np.uint32(np.uint32(purpose) * np.uint32(0x85EBCA6B))))
+
+
+@inlined
 def draw(key: np.uint64, step: int, purpose: int) -> float:
     """Uniform random number in [0, 1), a multiple of 2**-32.
 
@@ -71,7 +79,4 @@ def draw(key: np.uint64, step: int, purpose: int) -> float:
     """
     low = np.uint32(key & np.uint64(0xFFFFFFFF))
     high = np.uint32(key >> np.uint64(32))
-    h = _mix(np.uint32(np.uint32(np.uint32(step) * np.uint32(0x9E3779B9)) + low))
-    h = np.uint32(h ^ high)
-    h = _mix(np.uint32(h + np.uint32(np.uint32(purpose) * np.uint32(0x85EBCA6B))))
-    return float(h) * (1.0 / 4294967296.0)
+    return float(draw_bits(low, high, step, purpose)) * (1.0 / 4294967296.0)

@@ -1,4 +1,4 @@
-"""The second half of a control step: avoid, move, collide."""
+"""The second half of a control step: target, wheels, motion."""
 
 from __future__ import annotations
 
@@ -17,39 +17,6 @@ A robot that drives towards the light until its heading is exact, and then is to
 would else turn by the left or by the right according to the last bit of a rounding error, which
 differs between machines.
 """
-
-
-@inlined
-def avoid_robots(physics: Physics, robots: Any) -> bool:
-    """Avoidance vector from the other robots, for all; True if some pair may touch in this step."""
-    for i in range(len(robots)):
-        robots[i].away_x = 0.0
-        robots[i].away_y = 0.0
-    touch = 2.0 * (physics.radius + physics.max_speed * physics.control_step) + 1e-9
-    may_touch = False
-    for i in range(len(robots)):
-        for j in range(i + 1, len(robots)):
-            dx = robots[i].x - robots[j].x
-            dy = robots[i].y - robots[j].y
-            d2 = dx * dx + dy * dy
-            may_touch = may_touch or d2 < touch * touch
-            if d2 < physics.rab_range * physics.rab_range:
-                d, dx, dy = _apart(dx, dy)
-                strength = 1.0 - d / physics.rab_range
-                robots[i].away_x += strength * dx
-                robots[i].away_y += strength * dy
-                robots[j].away_x -= strength * dx
-                robots[j].away_y -= strength * dy
-    return may_touch
-
-
-@inlined
-def _apart(dx: float, dy: float) -> tuple[float, float, float]:
-    """Distance and unit vector of (dx, dy); east for robots at the very same place."""
-    d = math.sqrt(dx * dx + dy * dy)
-    if d == 0.0:
-        return 0.0, 1.0, 0.0
-    return d, dx / d, dy / d
 
 
 @inlined
@@ -136,31 +103,3 @@ def move(physics: Physics, robot: Any, step: int) -> None:
     robot.cos, robot.sin = cos * c - sin * s, sin * c + cos * s
     robot.x += forward * physics.control_step * robot.cos
     robot.y += forward * physics.control_step * robot.sin
-
-
-@inlined
-def collide(physics: Physics, robots: Any, may_touch: bool) -> None:
-    """Push overlapping pairs apart, pair after pair, then clamp everything inside the walls."""
-    reach_x = physics.half_width - physics.radius
-    reach_y = physics.half_length - physics.radius
-    end = len(robots) if may_touch else 0
-    for i in range(len(robots)):
-        robot = robots[i]
-        for j in range(i + 1, end):
-            _push_apart(robot, robots[j], physics.radius)
-        robot.x = min(max(robot.x, -reach_x), reach_x)  # no later pair moves this robot
-        robot.y = min(max(robot.y, -reach_y), reach_y)
-
-
-@inlined
-def _push_apart(robot: Any, other: Any, radius: float) -> None:
-    """Move both by half of their overlap."""
-    dx = robot.x - other.x
-    dy = robot.y - other.y
-    if dx * dx + dy * dy < 4.0 * radius * radius:
-        d, dx, dy = _apart(dx, dy)
-        push = radius - d / 2.0
-        robot.x += push * dx
-        robot.y += push * dy
-        other.x -= push * dx
-        other.y -= push * dy

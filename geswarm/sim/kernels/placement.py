@@ -17,6 +17,7 @@ from geswarm.sim.kernels.draws import (
     make_key,
 )
 from geswarm.sim.kernels.jit import inlined
+from geswarm.sim.kernels.neighbours import enter, is_clear
 from geswarm.sim.kernels.state import RANDOM_WALK, WANT_OBJECT, Physics
 
 PLACEMENT_ATTEMPTS = 200
@@ -25,12 +26,20 @@ PLACEMENT_ATTEMPTS = 200
 
 @inlined
 def start(
-    physics: Physics, robots: Any, objects: Any, seed: int, individual: int, replicate: int
+    physics: Physics,
+    robots: Any,
+    slots: Any,
+    starts: Any,
+    objects: Any,
+    seed: int,
+    individual: int,
+    replicate: int,
 ) -> None:
     """Robots at random poses in the nest, walking at random; objects at random in the source."""
+    starts[:] = -1
     for i in range(len(robots)):
         robots[i].key = make_key(seed, individual, replicate, i)
-        _start_robot(physics, robots, i)
+        _start_robot(physics, robots, slots, starts, i)
     arena_key = make_key(seed, individual, replicate, len(robots))
     for o in range(len(objects)):
         u = draw(arena_key, o, START_OBJECT_X)
@@ -38,7 +47,7 @@ def start(
 
 
 @inlined
-def _start_robot(physics: Physics, robots: Any, i: int) -> None:
+def _start_robot(physics: Physics, robots: Any, slots: Any, starts: Any, i: int) -> None:
     """Place robot i clear of the walls and, where that is found, of robots 0..i-1."""
     robot = robots[i]
     reach_x = physics.half_width - physics.radius
@@ -47,12 +56,9 @@ def _start_robot(physics: Physics, robots: Any, i: int) -> None:
     for attempt in range(PLACEMENT_ATTEMPTS):
         robot.x = reach_x * (2.0 * draw(robot.key, attempt, START_X) - 1.0)
         robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
-        clear = True
-        for j in range(i):
-            gap = math.hypot(robot.x - robots[j].x, robot.y - robots[j].y)
-            clear = clear and gap >= 2.0 * physics.radius
-        if clear:
+        if is_clear(physics, robots, slots, starts, i):
             break
+    enter(physics, robots, slots, starts, i)
     theta = 2.0 * math.pi * draw(robot.key, 0, START_HEADING)
     robot.cos = math.cos(theta)
     robot.sin = math.sin(theta)

@@ -54,18 +54,21 @@ ROBOT = np.dtype(
         ("walk_until", np.float64),  # control steps since the start at which it is over
         ("away_x", np.float64),  # avoidance vector from the other robots, in this step
         ("away_y", np.float64),
-        (
-            "last_rule",
-            np.int64,
-        ),  # the rule that fired last, -1 before any
+        ("column", np.int32),  # cell of a large swarm's grid, in this step
+        ("row", np.int32),
+        ("last_rule", np.int64),  # the rule that fired last, -1 before any
         ("behaviour", np.uint8),
         ("states", np.uint8),  # internal-state bits
         ("percepts", np.uint8),  # as perceived in the last step
         ("carried", np.bool_),
+        ("may_touch", np.bool_),  # another robot, in this step
     ],
     align=True,
 )
 """State of a robot."""
+
+SLOT = np.dtype([("robot", np.int64), ("column", np.int32), ("row", np.int32)], align=True)
+"""A robot in the order of the cells of a large swarm's grid."""
 
 RULE = np.dtype(
     [
@@ -91,5 +94,36 @@ ACTION = np.dtype(
 )
 """An action of a rule."""
 
-# Kernels take arrays of these one by one: numba counts references to arrays that come out of
-# tuples, with atomic operations that cost more than the control step itself.
+LANES = 64
+"""Simulations that can run side by side."""
+
+
+def _in_lanes(kind: type[np.generic], *names: str) -> list[tuple[str, type[np.generic], int]]:
+    return [(name, kind, LANES) for name in names]
+
+
+ROBOT_LANES = np.dtype(
+    [
+        *_in_lanes(np.float32, "x", "y", "cos", "sin", "walk_x", "walk_y", "away_x", "away_y"),
+        *_in_lanes(np.int32, "walk_until"),  # first control step at which the walk is over
+        *_in_lanes(np.int32, "memory"),  # carried << 3 | behaviour << 1 | WANT_OBJECT
+        *_in_lanes(np.uint32, "key_low", "key_high"),
+        *_in_lanes(np.uint32, "bits", "place", "word"),  # between the loops of a step
+        *_in_lanes(np.int32, "restarts", "takes"),
+        *_in_lanes(np.float32, "nearest"),
+    ],
+    align=True,
+)
+"""The robot of one number in many simulations, one lane each."""
+
+OBJECT_LANES = np.dtype(_in_lanes(np.float32, "x", "y"))
+"""The object of one number in many simulations."""
+
+GROUP = np.dtype(
+    [
+        *_in_lanes(np.uint32, "table"),  # where the simulation's control table starts
+        *_in_lanes(np.int32, "picked", "collected", "lost"),
+        *_in_lanes(np.int32, "touch"),  # whether robots may touch in this step
+    ]
+)
+"""What simulations side by side have besides robots and objects."""

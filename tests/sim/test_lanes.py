@@ -1,0 +1,145 @@
+"""Simulations side by side against the oracle: single precision, the same model."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numba import njit
+
+from geswarm.rules import FORAGING, ControlTable, RuleSet, load_preset
+from geswarm.sim import batch
+from geswarm.sim.encoding import encode_tables
+from geswarm.sim.kernels import single
+from geswarm.sim.scenario import load_scenario
+from tests.sim import oracle
+from tests.strategies import any_probabilities, plain_rule_sets
+
+PAPER = load_scenario("paper")
+CROWDED = PAPER.with_changes(
+    name="crowded", robots=6, width=1.4, length=1.6, nest=0.7, source=0.7, objects=4
+)
+BEHAVIOURS = [entry.name for entry in FORAGING.behaviours]
+
+
+def distance_to_oracle(group, twin, lane):
+    """Largest distance between a robot and its twin; infinite if their memories differ."""
+    largest = 0.0
+    for i, robot in enumerate(twin.robots):
+        memory = int(group.robots["memory"][i, lane])
+        behaviour, want = BEHAVIOURS.index(robot.behaviour), robot.states["WANT_OBJECT"]
+        if memory != 8 * robot.carried + 2 * behaviour + want:
+            return math.inf
+        x, y = group.robots["x"][i, lane], group.robots["y"][i, lane]
+        largest = max(largest, math.hypot(x - robot.x, y - robot.y))
+    return largest
+
+
+@pytest.mark.parametrize("preset", ["hand-coded", "evo8"])
+@pytest.mark.parametrize("scenario", [PAPER, CROWDED], ids=lambda scenario: scenario.name)
+def test_lanes_follow_the_oracle(scenario, preset):
+    words = encode_tables([ControlTable.compile(load_preset(preset))], scenario.zone_miss)
+    simulations = np.array([(0, seed, 0, 0) for seed in range(16)])
+    group = batch.Group(words, scenario, simulations)
+    ideal = scenario.with_changes(zone_miss=0.0)  # the table misses zones
+    twins = [oracle.Oracle(ideal, seed) for seed in range(16)]
+    decide = oracle.by_table(words.words[0], words.slot_bits)
+    for first in range(0, 300, 50):
+        group.run(first, 50)
+        for twin in twins:
+            for _ in range(50):
+                twin.step(decide)
+    apart = np.array([distance_to_oracle(group, twin, lane) for lane, twin in enumerate(twins)])
+    # A rounding error may decide whether something happens in this step or the next.
+    assert np.count_nonzero(apart < 1e-4) >= 13
+    for lane in np.flatnonzero(apart < 1e-4):
+        twin = twins[lane]
+        counts = [int(group.counts[name][lane]) for name in ("picked", "collected", "lost")]
+        assert counts == [twin.picked, twin.collected, twin.lost]
+
+
+def test_robots_at_the_very_same_place_part():
+    words = encode_tables([ControlTable.compile(RuleSet())], 0.0)
+    group = batch.Group(words, PAPER, np.zeros((1, 4), dtype=np.int64))
+    group.robots["x"][:2, 0], group.robots["y"][:2, 0] = 0.25, 0.5
+    group.run(0, 5)
+    x, y = group.robots["x"][:, 0], group.robots["y"][:, 0]
+    assert math.hypot(x[0] - x[1], y[0] - y[1]) > 0.169
+    assert np.isfinite(x).all()
+    assert np.isfinite(y).all()
+
+
+def test_a_target_of_length_zero_is_straight_ahead():
+    words = encode_tables([ControlTable.compile(RuleSet())], 0.0)
+    group = batch.Group(words, PAPER.with_changes(robots=1), np.zeros((1, 4), dtype=np.int64))
+    robot = group.robots
+    robot["x"], robot["y"], robot["cos"], robot["sin"] = 0.0, 0.0, 0.6, 0.8
+    robot["walk_x"], robot["walk_y"], robot["walk_until"] = 0.0, 0.0, 1000
+    group.run(0, 1)
+    assert robot["x"][0, 0] == pytest.approx(0.006)
+    assert robot["y"][0, 0] == pytest.approx(0.008)
+
+
+@given(
+    st.lists(plain_rule_sets(probabilities=any_probabilities), min_size=1, max_size=3),
+    st.sampled_from([0.0, 0.08, 1.0]),
+)
+@settings(max_examples=30, deadline=None)
+def test_slots_have_the_probabilities_of_the_table(rule_sets, zone_miss):
+    tables = [ControlTable.compile(rule_set) for rule_set in rule_sets]
+    words = encode_tables(tables, zone_miss)
+    for table, slots in zip(tables, words.words.astype(int), strict=True):
+        for carried, behaviour, want, zones in itertools.product(
+            (0, 1), range(3), (0, 1), range(3)
+        ):
+            noticed, missed = (
+                table.probabilities[table.indexing.situation(4 * carried + z, behaviour, want)]
+                for z in (zones, 0)
+            )
+            expected = (1 - zone_miss) * noticed + zone_miss * missed
+            found = np.zeros(24)
+            for word in slots[16 * zones + 8 * carried + 2 * behaviour + want]:
+                share = (word >> 10) / 2**22 / len(slots[0])
+                found[word >> 5 & 31] += share
+                found[word & 31] += 1 / len(slots[0]) - share
+            np.testing.assert_allclose(found, expected, atol=1e-6)
+            assert not np.any((found > 0) & (expected == 0))
+
+
+@njit
+def evaluated(x, bits):
+    cos, sin = np.cos(x.astype(np.float64)), np.sin(x.astype(np.float64))
+    results = np.empty((len(x), 8))
+    for k in range(len(x)):
+        turn_cos, turn_sin = single.cos_sin(np.float32(x[k] / 2))
+        along, across = single.heading(bits[k])
+        results[k] = (
+            single.angle_of(np.float32(cos[k]), np.float32(sin[k])),
+            turn_cos,
+            turn_sin,
+            single.inverse_root(np.float32(np.exp(10 * x[k]))),
+            along,
+            across,
+            single.fraction(bits[k]),
+            single.inverse_root(np.float32(0.0)),
+        )
+    return results
+
+
+def test_errors_of_single_precision_functions_are_within_their_bounds():
+    x = np.linspace(-math.pi, math.pi, 100_001).astype(np.float32)
+    bits = np.linspace(0, 2**32 - 1, len(x)).astype(np.uint32)
+    angle, cos, sin, root, along, across, fraction, of_zero = evaluated(x, bits).T
+    wide = x.astype(np.float64)
+    assert np.abs(np.angle(np.exp(1j * (angle - wide)))).max() < 3e-6
+    assert np.abs(cos - np.cos(wide / 2)).max() < 6e-7
+    assert np.abs(sin - np.sin(wide / 2)).max() < 6e-7
+    assert np.abs(root * np.sqrt(np.exp(10 * wide)) - 1).max() < 5e-6 + 1e-6  # and of exp's input
+    true = 2 * np.pi * bits / 2**32
+    assert np.hypot(along - np.cos(true), across - np.sin(true)).max() < 2e-6
+    assert np.abs(np.hypot(along, across) - 1).max() < 1e-6
+    assert np.abs(fraction - bits / 2**32).max() < 2**-24
+    assert fraction.max() < 1
+    assert np.isfinite(of_zero).all()
