@@ -125,8 +125,7 @@ def verdict_message(answer: Answer | None) -> Message:
             for sample in answer.samples
         ],
         "comparisons": [
-            {"role": role, **asdict(comparison)}
-            for role, comparison in answer.comparisons().items()
+            {"role": role, **asdict(comparison)} for role, comparison in answer.comparisons.items()
         ],
     }
 

@@ -7,7 +7,7 @@ difference of means has the interval of paired samples and small effects show.
 from __future__ import annotations
 
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -64,26 +64,25 @@ class Answer:
     Attributes:
         question: What was asked.
         samples: The rules now, before, and the presets, in this order.
+        comparisons: The rules now against each other sample, by its role.
         busy: More runs are to come.
     """
 
     question: Question
     samples: tuple[Sample, ...] = ()
+    comparisons: dict[str, PairedDifference] = field(default_factory=dict)
     busy: bool = True
 
-    def comparisons(self) -> dict[str, PairedDifference]:
-        """Mean of the rules now minus the mean of each other sample, over their common runs."""
-        if not self.samples:
-            return {}
-        current, *others = self.samples
-        found = {}
-        for other in others:
-            runs = min(len(current.collected), len(other.collected))
-            if runs > 1:
-                found[other.role] = paired_difference(
-                    current.collected[:runs], other.collected[:runs]
-                )
-        return found
+
+def compared(samples: tuple[Sample, ...]) -> dict[str, PairedDifference]:
+    """Mean of the rules now minus the mean of each other sample, over their common runs."""
+    current, *others = samples
+    found = {}
+    for other in others:
+        runs = min(len(current.collected), len(other.collected))
+        if runs > 1:
+            found[other.role] = paired_difference(current.collected[:runs], other.collected[:runs])
+    return found
 
 
 class Verdict:
@@ -115,12 +114,16 @@ class Verdict:
                 self._run_all(question, runs, stop)
         except EvaluationStopped:
             return
-        self.answer = Answer(question, self._known(question), busy=False)
+        self._publish(question, busy=False)
 
     def _run_all(self, question: Question, runs: int, stop: Stop) -> None:
         for _, _, rule_set in contestants(question):
             self._run(rule_set, question.scenario, runs, stop)
-            self.answer = Answer(question, self._known(question))
+            self._publish(question, busy=True)
+
+    def _publish(self, question: Question, busy: bool) -> None:
+        samples = self._known(question)
+        self.answer = Answer(question, samples, compared(samples), busy)
 
     def _run(self, rule_set: RuleSet, scenario: Scenario, runs: int, stop: Stop) -> None:
         key = _key(rule_set, scenario)

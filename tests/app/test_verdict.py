@@ -47,7 +47,7 @@ def test_the_verdict_is_that_of_a_plain_evaluation(verdict):
     for role, rule_set in (("current", edited), ("before", EVO8), ("evo8", EVO8)):
         (expected,) = evaluate_rule_sets([rule_set], QUICK, RUNS)
         assert samples[role].collected.tolist() == expected.collected.tolist()
-    comparisons = verdict.answer.comparisons()
+    comparisons = verdict.answer.comparisons
     expected_difference = samples["current"].collected.mean() - samples["before"].collected.mean()
     assert comparisons["before"].difference == pytest.approx(expected_difference)
     assert comparisons["evo8"] == comparisons["before"]
@@ -57,7 +57,7 @@ def test_without_an_edit_there_is_nothing_before(verdict):
     verdict.ask(Question(1, EVO8, None, QUICK))
     wait_until(lambda: verdict.answer is not None and not verdict.answer.busy)
     assert [sample.role for sample in verdict.answer.samples] == ["current", "evo8", "hand-coded"]
-    assert verdict.answer.comparisons()["evo8"].difference == 0
+    assert verdict.answer.comparisons["evo8"].difference == 0
 
 
 def test_a_newer_question_cancels_the_older_one(verdict):
