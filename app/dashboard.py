@@ -14,7 +14,7 @@ import viser
 
 from geswarm.cli import UsageError
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
-from geswarm.sim import Scenario, ScenarioError, load_scenario
+from geswarm.sim import Scenario, ScenarioError, is_compiled, load_scenario, warm_up
 
 from .panels.evolution_panel import EvolutionPanel
 from .panels.inspector_panel import InspectorPanel
@@ -144,6 +144,8 @@ def run_dashboard(options: argparse.Namespace) -> int:
         rule_set = load_rule_set(options.rules or "evo8")
     except (ScenarioError, RuleSetError) as error:
         raise UsageError(str(error)) from error
+    if not is_compiled():
+        warm_up()
     port = 8080 if options.port is None else options.port
     try:
         dashboard = open_dashboard(

@@ -25,7 +25,7 @@ from geswarm.cli import UsageError
 from geswarm.cluster import ClusterError, cluster_executor
 from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
-from geswarm.sim import ScenarioError, load_scenario
+from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
 
 from .run_directory import new_run_directory
 
@@ -51,6 +51,8 @@ def evolve_headless(options: argparse.Namespace) -> int:
 def _evolve_and_report(
     run: EvolutionRun, workers: int | None, executor: Executor | None, console: Console
 ) -> int:
+    if not is_compiled():
+        warm_up()
     try:
         with _stop_on_signals() as stop:
             _evolve(run, workers, executor, stop, console)

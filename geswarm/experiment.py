@@ -1,11 +1,10 @@
-"""Where evolution, simulator and rules meet: evaluating rule sets and evolving them to forage.
-
-genome --mapping--> phenotype text --parse--> RuleSet --compile--> ControlTable --> collected
-"""
+"""Where evolution, simulator and rules meet: evaluating rule sets and evolving them to forage."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,42 +14,60 @@ import numpy.typing as npt
 import yaml
 
 from geswarm import __version__
+from geswarm.fitness import (
+    Composition,
+    EvaluationError,
+    ForagingFitness,
+    InjectionError,
+    Stop,
+    foraging_grammar,
+)
 from geswarm.ge import (
     Engine,
     GenerationRecord,
-    Grammar,
-    Individual,
+    Injection,
+    NotASentenceError,
     Result,
     RunStore,
     Settings,
+    SettingsChange,
     SettingsError,
-    Stopped,
+    Steering,
+    StoredIndividual,
+    StoredSteering,
     StoreError,
     evolve,
-    geswarm_grammar,
+    genome_of,
 )
+from geswarm.population import Member, Population
 from geswarm.rules import (
-    FORAGING,
     ControlTable,
     Origin,
+    Rule,
     RuleSet,
-    Vocabulary,
+    RuleSetError,
+    format_text,
     parse_text,
     save_rule_set,
 )
-from geswarm.rules.elements import format_probability
-from geswarm.sim import (
-    EvaluationStopped,
-    Scenario,
-    ScenarioError,
-    Simulation,
-    evaluate,
-    parse_scenario,
-)
+from geswarm.sim import Scenario, ScenarioError, Simulation, evaluate, parse_scenario
 
-Stop = Callable[[], bool]
+__all__ = [
+    "Composition",
+    "Evaluation",
+    "EvaluationError",
+    "EvolutionRun",
+    "ForagingFitness",
+    "InjectionError",
+    "Member",
+    "Population",
+    "RunConfig",
+    "RunConfigError",
+    "evaluate_rule_sets",
+    "foraging_grammar",
+]
 
-_RUNS_PER_CALL = 50  # between two reports of progress
+_RUNS_PER_CALL = 128  # between two reports of progress; fills the SIMD lanes of two threads
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,70 +139,30 @@ def evaluate_rule_sets(
     return [Evaluation(*pair) for pair in zip(collected, lost, strict=True)]
 
 
-def foraging_grammar(vocabulary: Vocabulary = FORAGING) -> Grammar:
-    """The paper's grammar over a vocabulary: its sentences are rule sets."""
-    return geswarm_grammar(
-        {
-            "P_name": list(vocabulary.precondition_index),
-            "B_name": list(vocabulary.behaviour_index),
-            "IS_name": list(vocabulary.state_index),
-            "value": [format_probability(p) for p in vocabulary.probabilities],
-        }
-    )
-
-
-@dataclass(frozen=True)
-class ForagingFitness:
-    """Fitness of phenotypes: mean of the objects collected (paper, section 3.1.2).
-
-    A fitness depends on seed, generation and individual alone, not on workers or on who else is
-    evaluated.
-    """
-
-    scenario: Scenario
-    seed: int
-    evaluations: int
-    workers: int | None = None
-    stop: Stop | None = None
-
-    def __call__(self, generation: int, individuals: Sequence[Individual]) -> list[float]:
-        """Mean collected of each individual over `evaluations` simulations.
-
-        Raises:
-            Stopped: `stop` returned True.
-        """
-        tables, table_of = _compile_once(one.phenotype or "" for one in individuals)
-        todo = [
-            Simulation(table, self.seed, (generation << 32) + one.key, replicate)
-            for table, one in zip(table_of, individuals, strict=True)
-            for replicate in range(self.evaluations)
-        ]
-        try:
-            result = evaluate(tables, self.scenario, todo, workers=self.workers, stop=self.stop)
-        except EvaluationStopped as error:
-            raise Stopped from error
-        per_individual = result.collected.reshape(len(individuals), self.evaluations)
-        return [float(mean) for mean in per_individual.mean(axis=1)]
-
-
-def _compile_once(phenotypes: Iterable[str]) -> tuple[list[ControlTable], list[int]]:
-    """The different control tables, and for each phenotype which one is its own."""
-    positions: dict[str, int] = {}
-    table_of = [positions.setdefault(phenotype, len(positions)) for phenotype in phenotypes]
-    return [ControlTable.compile(parse_text(phenotype)) for phenotype in positions], table_of
-
-
 class RunConfigError(ValueError):
     """The config.yaml of a run cannot be used."""
 
 
 @dataclass(frozen=True)
 class RunConfig:
-    """Everything that decides how an evolutionary run goes."""
+    """Everything that decides how an evolutionary run goes.
+
+    Attributes:
+        scenario: Where the rules are evaluated.
+        settings: Of the evolutionary algorithm, at the beginning.
+        seed: Of all random numbers.
+        frozen: Rules that stand before the evolved ones and never change.
+    """
 
     scenario: Scenario
     settings: Settings
     seed: int = 0
+    frozen: tuple[Rule, ...] = ()
+
+    @property
+    def composition(self) -> Composition:
+        """What a phenotype becomes."""
+        return Composition(self.frozen)
 
     def to_yaml(self) -> str:
         """The text of config.yaml, everything resolved."""
@@ -193,6 +170,7 @@ class RunConfig:
             "geswarm": __version__,
             "seed": self.seed,
             "evolution": asdict(self.settings),
+            "frozen": format_text(RuleSet(self.frozen)) if self.frozen else "",
             "scenario_name": self.scenario.name,
             "scenario": yaml.safe_load(self.scenario.to_yaml()),
         }
@@ -212,8 +190,12 @@ class RunConfig:
                 scenario=parse_scenario(scenario_text, str(document["scenario_name"])),
                 settings=Settings(**document["evolution"]),
                 seed=int(document["seed"]),
+                frozen=parse_text(document["frozen"]).rules if document["frozen"] else (),
             )
-        except (KeyError, TypeError, ValueError, ScenarioError, SettingsError) as error:
+        except (
+            *(KeyError, TypeError, ValueError),
+            *(ScenarioError, SettingsError, RuleSetError),
+        ) as error:
             raise RunConfigError(f"not the configuration of a run: {error}") from error
         except yaml.YAMLError as error:
             raise RunConfigError("not the configuration of a run: not valid YAML") from error
@@ -222,18 +204,24 @@ class RunConfig:
 class EvolutionRun:
     """An evolutionary run in its directory: config.yaml, run.db, history.csv and best.yaml.
 
+    `inject`, `steer`, `population` and `genealogy` may be called from any thread while `run` works
+    in another.
+
     Attributes:
-        config: How it goes.
+        config: How it began.
         directory: Where it is kept.
         history: One record per generation finished, those before a resume included.
+        steering: What was changed on the way, with the generation from which on.
     """
 
     def __init__(self, config: RunConfig, store: RunStore, engine: Engine) -> None:
         self.config = config
         self.directory = store.directory
         self.history: list[GenerationRecord] = store.history()
+        self.steering: list[StoredSteering] = store.steering()
         self._store = store
         self._engine = engine
+        self._requests: deque[Steering] = deque()
 
     @classmethod
     def create(cls, config: RunConfig, directory: str | Path) -> EvolutionRun:
@@ -243,7 +231,9 @@ class EvolutionRun:
             StoreError: The directory holds a run already or cannot be written.
         """
         store = RunStore.create(directory, config.to_yaml())
-        return cls(config, store, Engine(foraging_grammar(), config.settings, config.seed))
+        identity = config.composition.behaviour
+        engine = Engine(foraging_grammar(), config.settings, config.seed, identity)
+        return cls(config, store, engine)
 
     @classmethod
     def resume(cls, directory: str | Path) -> EvolutionRun:
@@ -256,11 +246,15 @@ class EvolutionRun:
         try:
             config = RunConfig.from_yaml(store.config)
             state = store.checkpoint()
-            grammar = foraging_grammar()
+            identity = config.composition.behaviour
+            parameters = foraging_grammar(), config.settings, config.seed
             if state is None:
-                engine = Engine(grammar, config.settings, config.seed)
+                engine = Engine(*parameters, identity)
             else:
-                engine = Engine.restore(grammar, config.settings, config.seed, state)
+                engine = Engine.restore(*parameters, state, identity)
+            for change in store.steering():
+                if change.generation > engine.generation:  # of the generation that was lost
+                    change.what.apply(engine)
         except (ValueError, StoreError) as error:
             store.close()
             raise StoreError(f"{directory}: {error}") from error
@@ -274,6 +268,11 @@ class EvolutionRun:
         return self._engine.finished
 
     @property
+    def settings(self) -> Settings:
+        """The settings as they are now; those of the beginning are in `config`."""
+        return self._engine.settings
+
+    @property
     def best(self) -> RuleSet | None:
         """The best rule set so far, with its origin; None before the first generation."""
         best = self._engine.best
@@ -281,18 +280,60 @@ class EvolutionRun:
             return None
         origin = Origin(run=str(self.directory), generation=best.generation, fitness=best.fitness)
         name = f"Evolved, seed {self.config.seed}, generation {best.generation}"
-        return replace(parse_text(best.phenotype), name=name, origin=origin)
+        rule_set = self.config.composition.rule_set(best.phenotype)
+        return replace(rule_set, name=name, origin=origin)
+
+    def population(self) -> Population:
+        """The individuals of the last finished generation and how they differ."""
+        return Population.of(self._engine.population, self.config.composition)
+
+    def genealogy(self) -> list[StoredIndividual]:
+        """The best individual and everyone it descends from, oldest first."""
+        best = self._store.best()
+        return self._store.ancestors((best.generation, best.key)) if best else []
+
+    def inject(self, rule_set: RuleSet) -> None:
+        """Have a rule set enter the population with the next generation that is bred.
+
+        It is evaluated with that generation and takes the place of the worst.
+
+        Raises:
+            InjectionError: The grammar does not derive it; says why.
+        """
+        phenotype = self.config.composition.phenotype(rule_set)
+        try:
+            genome_of(self._engine.grammar, phenotype)
+        except NotASentenceError as error:
+            raise InjectionError(f"the grammar does not derive these rules: {error}") from error
+        self._requests.append(Injection(phenotype))
+
+    def steer(self, **changes: float) -> None:
+        """Change `crossover`, `mutation`, `scaling` or `tournament` from the next generation on.
+
+        Raises:
+            SettingsError: Another setting, or a value that cannot be used.
+        """
+        self._engine.settings.steered(**changes)
+        self._requests.append(SettingsChange(changes))
 
     def run(
         self,
         workers: int | None = None,
         on_generation: Callable[[GenerationRecord], None] | None = None,
         stop: Stop | None = None,
+        executor: Executor | None = None,
     ) -> Result:
         """Evolve to the last generation or until `stop` returns True; can be called again.
 
+        Args:
+            workers: Threads that simulate; None for one per core.
+            on_generation: Called after each generation.
+            stop: Asked now and then.
+            executor: Simulates in place of threads of this process; the history is the same.
+
         Raises:
             StoreError: A generation could not be written; those before it are safe.
+            EvaluationError: The executor failed; the generations so far are safe.
         """
         saved = None
 
@@ -311,8 +352,19 @@ class EvolutionRun:
             self.config.settings.evaluations,
             workers,
             stop,
+            self.config.settings.common_random_numbers,
+            self.config.composition,
+            executor,
         )
-        return evolve(self._engine, fitness, self._store, after_generation, stop)
+        return evolve(
+            self._engine, fitness, self._store, after_generation, stop, self._take_requests
+        )
+
+    def _take_requests(self) -> Iterator[Steering]:
+        while self._requests:
+            what = self._requests.popleft()
+            yield what
+            self.steering.append(StoredSteering(self._engine.generation + 1, what))
 
     def _save_best(self) -> None:
         if self.best is not None:

@@ -6,8 +6,9 @@ import sys
 
 import pytest
 
-from geswarm.cli import main
-from geswarm.rules import load_preset, parse_text, parse_yaml
+from geswarm.cli import EXPORT_FORMS, main
+from geswarm.rules import load_preset, load_rule_set, parse_text, parse_yaml
+from geswarm.rules.exports import EXPORTS
 
 QUICK = "extends: paper\nduration: 100\n"
 
@@ -128,6 +129,23 @@ def test_rules_come_from_standard_input(monkeypatch, capsys):
         (["check", "nowhere.yaml"], "nowhere.yaml: neither a file"),
         (["show", "evo8", "--as", "pdf"], "invalid choice"),
         (["dance"], "invalid choice"),
+        (["equal", "evo8"], "the following arguments are required: B"),
+        (["equal", "evo8", "nowhere.yaml"], "nowhere.yaml: neither a file"),
+        (["export", "evo8"], "the following arguments are required: --to"),
+        (["export", "evo8", "--to", "pdf"], "invalid choice"),
+        (["export", "evo8", "--to", "dot", "-o", "no/where"], "no/where: cannot be written"),
+        (["export", "evo8", "--to", "dot", "-o", ""], ": cannot be written"),
+        (["export", "evo8", "--to", "dot", "--strict"], "--strict goes with --to automode"),
+        (
+            ["export", "evo8", "--to", "dot", "--scenario", "paper"],
+            "--scenario goes with --to argos-lua",
+        ),
+        (["export", "evo8", "--to", "argos-lua", "--scenario", "moon"], "moon"),
+        (["export", "evo8", "--to", "argos-lua", "--experiment", "x.argos"], "give it one with -o"),
+        (
+            ["export", "evo8", "--to", "argos-lua", "-o", "x", "--experiment", "x"],
+            "different files",
+        ),
     ],
 )
 def test_usage_errors_exit_2_with_one_clear_message(arguments, message, capsys):
@@ -140,6 +158,99 @@ def test_usage_errors_exit_2_with_one_clear_message(arguments, message, capsys):
     assert message in captured.err
     assert captured.out == ""
     assert "Traceback" not in captured.err
+
+
+def test_equal_says_where_rule_sets_differ(tmp_path, capsys):
+    same = tmp_path / "same.json"
+    assert main(["export", "evo8", "--to", "json", "-o", str(same)]) == 0
+    assert main(["equal", "evo8", str(same)]) == 0
+    assert capsys.readouterr().out == "equal\n"
+    assert main(["equal", "evo8", "hand-coded"]) == 1
+    assert capsys.readouterr().out.splitlines() == [
+        "different when outside the nest, away from the source and not holding an object, "
+        "while going to the light, with WANT_OBJECT true:",
+        "  evo8",
+        "    0.95      keep going to the light",
+        "    0.05      start walking at random",
+        "  hand-coded",
+        "    1         keep going to the light",
+    ]
+    assert main(["equal", "evo8", "evo8", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document == {"a": "evo8", "b": "evo8", "equal": True, "difference": None}
+    assert main(["equal", "hand-coded", "evo8", "--json"]) == 1
+    document = json.loads(capsys.readouterr().out)
+    assert document["equal"] is False
+    assert document["difference"]["first"] == {"keep going to the light": 1.0}
+
+
+@pytest.mark.parametrize("form", EXPORT_FORMS)
+def test_export_writes_every_form_to_a_file_or_to_standard_output(form, tmp_path, capsys):
+    path = tmp_path / "out"
+    assert main(["export", "evo8", "--to", form]) == 0
+    out = capsys.readouterr().out
+    assert main(["export", "evo8", "--to", form, "-o", str(path)]) == 0
+    assert path.read_text(encoding="utf-8") == out != ""
+    assert capsys.readouterr().out == ""
+    assert [entry.name for entry in tmp_path.iterdir()] == ["out"]
+    if form in ("yaml", "text", "json"):
+        assert load_rule_set(str(path)) == load_preset("evo8")
+
+
+def test_export_to_a_directory_fails_and_leaves_nothing(tmp_path, capsys):
+    assert main(["export", "evo8", "--to", "dot", "-o", str(tmp_path)]) == 2
+    assert "cannot be written: Is a directory" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_export_writes_through_a_link(tmp_path):
+    link, file = tmp_path / "link", tmp_path / "file"
+    link.symlink_to(file)
+    assert main(["export", "evo8", "--to", "dot", "-o", str(link)]) == 0
+    assert link.is_symlink()
+    assert file.read_text().startswith("digraph")
+
+
+def test_export_offers_all_there_is():
+    assert set(EXPORT_FORMS) == {*EXPORTS, "argos-lua"}
+
+
+def test_export_writes_an_argos_experiment_beside_the_script(tmp_path, capsys):
+    script, experiment = tmp_path / "lua" / "evo8.lua", tmp_path / "evo8.argos"
+    script.parent.mkdir()
+    arguments = ["export", "evo8", "--to", "argos-lua", "-o", str(script), "--scenario"]
+    assert main([*arguments, "scalability-10", "--experiment", str(experiment)]) == 0
+    written = experiment.read_text()
+    assert '<params script="lua/evo8.lua" />' in written
+    assert 'path="evo8-floor.ppm"' in written
+    assert 'quantity="10"' in written
+    assert (tmp_path / "evo8-floor.ppm").read_text().startswith("P3\n1 440\n")
+    assert "-- Scenario: scalability-10" in script.read_text()
+
+
+def test_export_to_automode_warns_and_refuses_if_strict(tmp_path, capsys):
+    path = tmp_path / "fsm.txt"
+    assert main(["export", "evo8", "--to", "automode", "--strict", "-o", str(path)]) == 1
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "error: AutoMoDe: left out" in captured.err
+    assert not path.exists()
+    assert main(["export", "evo8", "--to", "automode", "-o", str(path)]) == 0
+    assert "warning: AutoMoDe: left out" in capsys.readouterr().err
+    assert path.read_text().startswith("--fsm-config --nstates 3 ")
+    simple = tmp_path / "simple.rules"
+    simple.write_text("rule if ON_NEST == true do p = 0.1, PHOTOTAXIS")
+    assert main(["export", str(simple), "--to", "automode", "--strict"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_export_leaves_the_old_file_if_the_rules_are_wrong(tmp_path, capsys):
+    path, bad = tmp_path / "out.tex", tmp_path / "bad.rules"
+    path.write_text("old")
+    bad.write_text("rule do p = 3, PHOTOTAXIS")
+    assert main(["export", str(bad), "--to", "latex", "-o", str(path)]) == 2
+    assert path.read_text() == "old"
+    assert "probability must be between 0 and 1" in capsys.readouterr().err
 
 
 def test_help_does_not_load_the_simulator():

@@ -8,8 +8,10 @@ import yaml
 from hypothesis import given
 
 from geswarm.experiment import (
+    Composition,
     EvolutionRun,
     ForagingFitness,
+    InjectionError,
     RunConfig,
     RunConfigError,
     evaluate_rule_sets,
@@ -112,7 +114,7 @@ def test_a_stop_within_a_generation_loses_only_that_one(tmp_path):
     def stop():
         nonlocal calls
         calls += 1
-        return calls > 12
+        return calls > 3
 
     run = evolved(tmp_path / "run", stop=stop, workers=1)
     assert not run.finished
@@ -145,3 +147,105 @@ def test_config_round_trips_and_foreign_ones_are_refused(tmp_path):
             RunConfig.from_yaml(text)
     with pytest.raises(StoreError, match=r"no run\.db"):
         EvolutionRun.resume(tmp_path)
+
+
+MODERN = replace(CONFIG, settings=Settings.preset("modern", population=12, generations=4))
+FROZEN = parse_text("rule if ON_NEST == true do p = 1, DROP_OBJECT = true").rules
+MINE = parse_text("rule do p = 0.1, RANDOM_WALK  rule off do p = 0.3, PHOTOTAXIS")
+
+
+@given(plain_rule_sets())
+def test_a_composition_turns_rule_sets_into_phenotypes_and_back(rule_set):
+    composition = Composition(FROZEN)
+    whole = RuleSet((*FROZEN, *rule_set.rules))
+    assert composition.rule_set(composition.phenotype(whole)) == whole
+    assert Composition().phenotype(rule_set) == as_phenotype(rule_set)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("rule do p = 0.15, RANDOM_WALK", r"rule 1: p = 0\.15 cannot evolve, .* nearest is 0\.1"),
+        ("rule off do p = 1, RANDOM_WALK", "expected more than 0 rules switched on, got 0"),
+        ("rule if ON_NEST == true", "the grammar does not derive"),
+    ],
+)
+def test_what_cannot_be_injected_says_why(tmp_path, text, message):
+    run = EvolutionRun.create(CONFIG, tmp_path / "run")
+    with pytest.raises(InjectionError, match=message):
+        run.inject(parse_text(text))
+    run.close()
+
+
+def test_frozen_rules_stay(tmp_path):
+    config = replace(MODERN, frozen=FROZEN)
+    assert RunConfig.from_yaml(config.to_yaml()) == config
+    run = EvolutionRun.create(config, tmp_path / "run")
+    with pytest.raises(InjectionError, match="rule 1 is frozen"):
+        run.inject(MINE)
+    run.inject(RuleSet((*FROZEN, *MINE.rules)))
+    run.run()
+    assert run.best.rules[: len(FROZEN)] == FROZEN
+    assert all(one.rule_set.rules[: len(FROZEN)] == FROZEN for one in run.population().members)
+    run.close()
+    assert load_rule_set(str(tmp_path / "run" / "best.yaml")).rules[0] == FROZEN[0]
+
+
+@pytest.mark.parametrize("config", [CONFIG, MODERN], ids=["paper", "modern"])
+@pytest.mark.parametrize("until", [2, 3])
+def test_a_steered_run_resumes_exactly(tmp_path, config, until):
+    def steer(run, record):
+        if record.generation == 2:
+            run.inject(MINE)
+            run.steer(mutation=0.4)
+
+    def evolve_until(directory, last):
+        run = EvolutionRun.create(config, directory)
+        stop = threading.Event()
+
+        def after(record):
+            steer(run, record)
+            if record.generation == last:
+                stop.set()
+
+        run.run(on_generation=after, stop=stop.is_set)
+        return run
+
+    whole, part = evolve_until(tmp_path / "whole", None), evolve_until(tmp_path / "part", until)
+    part.close()
+    again = EvolutionRun.resume(tmp_path / "part")
+    again.run(on_generation=lambda record: None)
+    if until > 2:  # it had begun when the run was stopped
+        assert rows(again.directory) == rows(whole.directory)
+        assert again.steering == whole.steering
+        assert [one.generation for one in again.steering] == [3, 3]
+        assert again.settings.mutation == 0.4
+        assert again.config.settings == config.settings
+    whole.close()
+    again.close()
+
+
+def test_the_population_and_its_genealogy_can_be_looked_at(tmp_path):
+    run = EvolutionRun.create(MODERN, tmp_path / "run")
+    assert run.population().members == ()
+    assert run.genealogy() == []
+    run.run()
+    population = run.population()
+    assert len(population.members) == 12
+    fitness = [one.fitness for one in population.members]
+    assert fitness == sorted(fitness, reverse=True)
+    assert population.behaviours == len({one.behaviour for one in population.members})
+    assert 1 <= population.diversity <= population.behaviours
+    line = run.genealogy()
+    assert parse_text(line[-1].phenotype).rules == run.best.rules
+    assert all(one.parents == () for one in line if one.generation == 1)
+    run.close()
+
+
+def test_equal_behaviours_have_one_key():
+    behaviour = Composition().behaviour
+    plain = "rule if ON_NEST == true do p = 0.1, PHOTOTAXIS"
+    twice = plain.replace("if ON_NEST == true", "if ON_NEST == true and ON_NEST == true")
+    never = plain + " rule if ON_NEST == true and ON_SOURCE == true do p = 1, RANDOM_WALK"
+    assert behaviour(plain) == behaviour(twice) == behaviour(never)
+    assert behaviour(plain) != behaviour(plain.replace("0.1", "0.05"))

@@ -1,35 +1,41 @@
 """The evolutionary algorithm as an ask/tell engine (paper, section 3.1.2; GEVA 2.0).
 
-One generation: `population` offspring are bred by roulette-wheel selection, single-point crossover
-and mutation; the worst of them make room for the elites of the generation before, which keep their
-fitness. Parameters (grammar, settings, seed) are apart from the state, which is one JSON value.
-Random numbers are keyed by (seed, generation, purpose), so a restored engine continues exactly.
+One generation: `population` offspring are bred; the worst of them make room for the elites of the
+generation before. Parameters (grammar, settings, seed) are apart from the state, which is one JSON
+value. Random numbers are keyed by (seed, generation, purpose), so a restored engine continues
+exactly.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from enum import IntEnum
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from geswarm.ge.derivation import DerivationTrees
 from geswarm.ge.grammar import Grammar
-from geswarm.ge.mapping import CODON_LIMIT, Genome, Mapper
-from geswarm.ge.operators import mutate, random_genome, roulette, single_point_crossover
+from geswarm.ge.individual import WORST_FITNESS, Individual, from_json, to_json
+from geswarm.ge.inverse import genome_of
+from geswarm.ge.mapping import Genome, Mapper
 from geswarm.ge.record import GenerationRecord
 from geswarm.ge.settings import Settings
+from geswarm.ge.variation import Child, Purpose, breed, initial, ranked
 
 State: TypeAlias = dict[str, Any]
 """An engine's state in JSON types: see `Engine.state`."""
 
-WORST_FITNESS = 0.0
+Identity: TypeAlias = Callable[[str], Hashable]
+"""Phenotype -> a value that is equal for phenotypes that behave the same."""
+
+TRUSTED = 5
+"""Evaluations after which a mean is believed as much as any other."""
 
 
 class CallOrderError(RuntimeError):
-    """`ask` and `tell` were not called in turn."""
+    """`ask`, `tell` or steering came when it was not its turn."""
 
 
 class FitnessError(ValueError):
@@ -38,37 +44,6 @@ class FitnessError(ValueError):
 
 class CheckpointError(ValueError):
     """A state does not belong to this engine, or is damaged."""
-
-
-@dataclass(frozen=True)
-class Individual:
-    """A genome and what it maps to.
-
-    Attributes:
-        generation: Generation for which it was bred; the initial one is 1.
-        key: Its number among those bred for that generation, from 0; an evaluator keys its random
-            streams by (seed, generation, key).
-        genome: Codons.
-        phenotype: A sentence of the grammar, or None if the mapping did not finish.
-        used: Codons that the mapping read, wrapping included.
-        fitness: None as long as it is not evaluated.
-    """
-
-    generation: int
-    key: int
-    genome: Genome
-    phenotype: str | None
-    used: int
-    fitness: float | None = None
-
-
-class _Purpose(IntEnum):
-    """What random numbers are for; part of their key."""
-
-    INITIALISATION = 0
-    SELECTION = 1
-    CROSSOVER = 2
-    MUTATION = 3
 
 
 class Engine:
@@ -82,14 +57,33 @@ class Engine:
 
     Attributes:
         grammar: The grammar.
-        settings: The parameters.
+        settings: The parameters; some of them can be steered.
         seed: Whole number >= 0; equal seeds give equal runs.
         generation: Generations that are finished.
-        population: Individuals of the last finished generation, all with a fitness.
-        best: The individual with the highest fitness so far; the first of equals.
+        population: Individuals of the last finished generation, all with a fitness, elites first.
+        offspring: What was bred for it, with the fitness of then; includes those that did not
+            survive.
+        best: The individual with the highest fitness so far, the first of equals; if elites are
+            evaluated again, the best of the population by all that is known of it, where a mean of
+            fewer than `TRUSTED` evaluations stands behind those of more.
     """
 
-    def __init__(self, grammar: Grammar, settings: Settings | None = None, seed: int = 0) -> None:
+    def __init__(
+        self,
+        grammar: Grammar,
+        settings: Settings | None = None,
+        seed: int = 0,
+        identity: Identity | None = None,
+    ) -> None:
+        """Make an engine that has not begun.
+
+        Args:
+            grammar: What to evolve sentences of.
+            settings: The paper's unless given.
+            seed: Whole number >= 0.
+            identity: Tells which phenotypes behave the same, for settings that share evaluations;
+                without it only equal phenotypes do.
+        """
         if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
             raise ValueError(f"seed: expected a whole number >= 0, got {seed!r}")
         self.grammar = grammar
@@ -97,9 +91,14 @@ class Engine:
         self.seed = seed
         self.generation = 0
         self.population: tuple[Individual, ...] = ()
+        self.offspring: tuple[Individual, ...] = ()
         self.best: Individual | None = None
+        self._identity = identity or str
         self._mapper = Mapper(grammar)
-        self._offspring: list[Individual] | None = None
+        self._trees = DerivationTrees(grammar)
+        self._injected: list[Individual] = []
+        self._bred: list[Individual] | None = None
+        self._asked: dict[Hashable, Individual] = {}
 
     @property
     def finished(self) -> bool:
@@ -107,22 +106,34 @@ class Engine:
         return self.generation >= self.settings.generations
 
     def ask(self) -> list[Individual]:
-        """Breed the next generation; all valid individuals of it need an evaluation.
+        """Breed the next generation; returns who needs an evaluation.
 
-        Equal phenotypes are all asked for, as in the paper. What is asked depends on nothing but
-        the parameters and the state: after `withdraw` the same individuals are asked again.
+        As in the paper that is every valid individual, also equal ones; settings can have
+        individuals that behave the same share one evaluation, and elites evaluated again. What is
+        asked depends on nothing but the parameters, the state and the steering: after `withdraw`
+        the same individuals are asked again.
 
         Raises:
             CallOrderError: The individuals asked before were not told.
         """
-        if self._offspring is not None:
+        if self._bred is not None:
             raise CallOrderError(
-                f"ask() called twice: expected tell() with {len(self._asked())} fitness values for "
+                f"ask() called twice: expected tell() with {len(self._asked)} fitness values for "
                 f"generation {self.generation + 1} first, or withdraw()"
             )
-        genomes = self._breed() if self.population else self._initial_genomes()
-        self._offspring = [self._individual(key, genome) for key, genome in enumerate(genomes)]
-        return self._asked()
+        tools = self._trees, self.settings, self._random, self._novelty()
+        if self.population:
+            children = breed(self.population, *tools)
+        else:
+            children = initial(self._mapper, *tools)
+        self._bred = [self._individual(key, child) for key, child in enumerate(children)]
+        self._bred += self._injected
+        again = self._elites() if self.settings.reevaluate_elites else []
+        known = {self._same(one) for one in self.population}
+        fresh = (one for one in self._bred if one.phenotype and self._same(one) not in known)
+        for one in (*again, *fresh):
+            self._asked.setdefault(self._same(one), one)
+        return list(self._asked.values())
 
     def tell(self, fitness: Sequence[float], seconds: float = 0.0) -> GenerationRecord:
         """Give the fitness of the asked individuals, in their order; ends the generation.
@@ -136,136 +147,191 @@ class Engine:
             FitnessError: Wrong number of values, or a value that cannot be used; nothing is changed
                 then, and a correct `tell` may follow.
         """
-        if self._offspring is None:
+        if self._bred is None:
             raise CallOrderError("tell() without ask(): expected ask() before each tell()")
-        values = iter(_checked_fitness(fitness, self._asked()))
-        offspring = [
-            replace(one, fitness=WORST_FITNESS if one.phenotype is None else next(values))
-            for one in self._offspring
-        ]
-        elites = _ranked(self.population)[: self.settings.elites]
-        survivors = _ranked(offspring)[: len(offspring) - len(elites)]
-        self.population = tuple(elites + survivors)
+        values = _checked_fitness(fitness, list(self._asked.values()))
+        told = dict(zip(self._asked, values, strict=True))
+        past = {self._same(one): one for one in self.population}
+        elites = [self._evaluated(one, told, past) for one in self._elites()]
+        bred = [self._evaluated(one, told, past) for one in self._bred]
+        self.population = self._survivors(elites, bred)
+        self.offspring = tuple(bred)
         self.generation += 1
-        self._offspring = None
-        champion = max(self.population, key=_fitness_of)
-        if self.best is None or _fitness_of(champion) > _fitness_of(self.best):
-            self.best = champion
-        return self._record(offspring, self.best, seconds)
+        self.withdraw()
+        self._injected = []
+        self.best = self._champion()
+        return self._record(bred, self.best, seconds)
 
     def withdraw(self) -> None:
         """Forget the individuals that were asked but not told, if any."""
-        self._offspring = None
+        self._bred = None
+        self._asked = {}
+
+    def inject(self, sentence: str) -> Individual:
+        """Add an individual to the next generation, from its phenotype.
+
+        It is evaluated with that generation and enters the population in place of the worst.
+
+        Raises:
+            CallOrderError: Individuals are asked and not told.
+            NotASentenceError: The grammar does not derive the sentence.
+        """
+        self._require_between_generations("inject")
+        key = self.settings.population + len(self._injected)
+        rng = np.random.default_rng((self.seed, self.generation + 1, int(Purpose.INJECTION), key))
+        individual = self._individual(key, Child(genome_of(self.grammar, sentence, rng)))
+        self._injected.append(individual)
+        return individual
+
+    def steer(self, **changes: float) -> None:
+        """Change settings from the next generation on: `crossover`, `mutation`, `tournament` ...
+
+        Raises:
+            CallOrderError: Individuals are asked and not told.
+            SettingsError: A setting cannot be changed any more, or not to this value.
+        """
+        self._require_between_generations("steer")
+        self.settings = self.settings.steered(**changes)
 
     def state(self) -> State:
         """Everything that `restore` needs besides the parameters, in JSON types.
 
-        Individuals that were asked but not told are not part of it.
+        Individuals that were asked or injected but not told are not part of it.
         """
         return {
             "generation": self.generation,
-            "population": [_to_json(one) for one in self.population],
-            "best": None if self.best is None else _to_json(self.best),
+            "settings": self.settings.steerable,
+            "population": [to_json(one) for one in self.population],
+            "best": None if self.best is None else to_json(self.best),
         }
 
     @classmethod
     def restore(
-        cls, grammar: Grammar, settings: Settings | None, seed: int, state: Mapping[str, Any]
+        cls,
+        grammar: Grammar,
+        settings: Settings | None,
+        seed: int,
+        state: Mapping[str, Any],
+        identity: Identity | None = None,
     ) -> Engine:
         """An engine that continues exactly where `state` was taken.
 
         Raises:
             CheckpointError: The state is damaged, or was made with another grammar.
         """
-        engine = cls(grammar, settings, seed)
+        engine = cls(grammar, settings, seed, identity)
         try:
             engine.generation = int(state["generation"])
-            engine.population = tuple(engine._from_json(one) for one in state["population"])
+            engine.settings = engine.settings.steered(**state["settings"])
+            engine.population = tuple(from_json(one) for one in state["population"])
             best = state["best"]
-            engine.best = None if best is None else engine._from_json(best)
+            engine.best = None if best is None else from_json(best)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise CheckpointError(
-                "checkpoint: expected generation, population and best as state() gives them, "
-                f"got {type(error).__name__}: {error}"
+                "checkpoint: expected generation, settings, population and best as state() gives "
+                f"them, got {type(error).__name__}: {error}"
             ) from error
-        if best is not None and engine.best and engine.best.phenotype != best["phenotype"]:
-            raise CheckpointError(
-                "checkpoint: its genomes do not map to the recorded sentences, expected the "
-                f"grammar and vocabulary of the run, got {grammar.source}"
-            )
+        for one in engine.population:
+            if engine._mapper.map(one.genome, engine.settings.max_wraps) != (
+                one.phenotype,
+                one.used,
+            ):
+                raise CheckpointError(
+                    "checkpoint: its genomes do not map to the recorded sentences, expected the "
+                    f"grammar and vocabulary of the run, got {grammar.source}"
+                )
         return engine
 
-    def _rng(self, purpose: _Purpose) -> np.random.Generator:
+    def _random(self, purpose: Purpose) -> np.random.Generator:
         key = (self.seed, self.generation + 1, int(purpose))
         return np.random.default_rng(np.random.SeedSequence(key))
 
-    def _individual(self, key: int, genome: Genome) -> Individual:
-        phenotype, used = self._mapper.map(genome, self.settings.max_wraps)
-        return Individual(self.generation + 1, key, genome, phenotype, used)
+    def _require_between_generations(self, what: str) -> None:
+        if self._bred is not None:
+            raise CallOrderError(f"{what}() after ask(): expected tell() or withdraw() first")
 
-    def _asked(self) -> list[Individual]:
-        return [one for one in self._offspring or () if one.phenotype is not None]
+    def _individual(self, key: int, child: Child) -> Individual:
+        phenotype, used = self._mapper.map(child.genome, self.settings.max_wraps)
+        parents = tuple(dict.fromkeys(self.population[at].birth for at in child.parents))
+        return Individual(self.generation + 1, key, child.genome, phenotype, used, parents)
 
-    def _initial_genomes(self) -> list[Genome]:
-        rng = self._rng(_Purpose.INITIALISATION)
-        longest = self.settings.max_codons
-        return [random_genome(self._mapper, longest, rng) for _ in range(self.settings.population)]
+    def _novelty(self) -> Callable[[Genome], bool]:
+        """Tells whether a genome behaves unlike the population and unlike those told before."""
+        known = {self._identity(one.phenotype) for one in self.population if one.phenotype}
 
-    def _breed(self) -> list[Genome]:
-        """Selection, crossover of neighbouring pairs, mutation."""
+        def is_new(genome: Genome) -> bool:
+            phenotype = self._mapper.map(genome, self.settings.max_wraps).phenotype
+            if phenotype is None:
+                return False
+            before = len(known)
+            known.add(self._identity(phenotype))
+            return len(known) > before
+
+        return is_new
+
+    def _same(self, individual: Individual) -> Hashable:
+        """Equal for individuals that have one fitness together."""
+        if self.settings.share_evaluations and individual.phenotype is not None:
+            return self._identity(individual.phenotype)
+        return individual.birth
+
+    def _elites(self) -> list[Individual]:
+        """Those that survive the coming generation, best first."""
+        return self._distinct(ranked(self.population, self.settings))[: self.settings.elites]
+
+    def _distinct(self, individuals: Iterable[Individual]) -> list[Individual]:
+        """The first of those that are the same before the others, both in their order."""
+        firsts: dict[Hashable, Individual] = {}
+        others = []
+        for one in individuals:
+            if firsts.setdefault(self._same(one), one) is not one:
+                others.append(one)
+        return [*firsts.values(), *others]
+
+    def _survivors(
+        self, elites: list[Individual], bred: list[Individual]
+    ) -> tuple[Individual, ...]:
+        """The best of elites and offspring, and the injected whatever they are worth."""
+        chosen = self._distinct(ranked([*elites, *bred], self.settings))
         size = self.settings.population
-        fitness = [_fitness_of(one) for one in self.population]
-        chosen = roulette(fitness, size + size % 2, self._rng(_Purpose.SELECTION))
-        genomes = [self.population[index].genome for index in chosen]
-        rng = self._rng(_Purpose.CROSSOVER)
-        for at in range(0, len(genomes), 2):
-            if rng.random() < self.settings.crossover:
-                genomes[at : at + 2] = single_point_crossover(
-                    genomes[at], genomes[at + 1], self.settings.max_codons, rng
-                )
-        rng = self._rng(_Purpose.MUTATION)
-        return [mutate(genome, self.settings.mutation, rng) for genome in genomes[:size]]
+        injected = [one for one in chosen[size:] if one.key >= size]
+        return (*chosen[: size - len(injected)], *injected)
 
-    def _record(
-        self, offspring: list[Individual], best: Individual, seconds: float
-    ) -> GenerationRecord:
-        fitness = [_fitness_of(one) for one in offspring]
+    def _evaluated(
+        self,
+        individual: Individual,
+        told: Mapping[Hashable, float],
+        past: Mapping[Hashable, Individual],
+    ) -> Individual:
+        """With the mean of what is known of it and of those that are the same."""
+        if individual.phenotype is None:
+            return replace(individual, fitness=WORST_FITNESS, told=1)
+        same = self._same(individual)
+        before = past.get(same)
+        if before is None:
+            return replace(individual, fitness=told[same], told=1)
+        if same not in told:
+            return replace(individual, fitness=before.fitness, told=before.told)
+        total = before.value * before.told + told[same]
+        return replace(individual, fitness=total / (before.told + 1), told=before.told + 1)
+
+    def _champion(self) -> Individual:
+        if not self.settings.reevaluate_elites:
+            first = max(self.population, key=lambda one: one.value)
+            return first if self.best is None or first.value > self.best.value else self.best
+        return max(self.population, key=lambda one: (min(one.told, TRUSTED), one.value))
+
+    def _record(self, bred: list[Individual], best: Individual, seconds: float) -> GenerationRecord:
+        fitness = [one.value for one in bred]
         return GenerationRecord(
             generation=self.generation,
-            best_so_far=_fitness_of(best),
+            best_so_far=best.value,
             best=max(fitness),
             mean=math.fsum(fitness) / len(fitness),
-            invalid=sum(one.phenotype is None for one in offspring),
-            distinct=len({one.phenotype for one in offspring} - {None}),
+            invalid=sum(one.phenotype is None for one in bred),
+            distinct=len({one.phenotype for one in bred} - {None}),
             seconds=seconds,
         )
-
-    def _from_json(self, data: Mapping[str, Any]) -> Individual:
-        genome = tuple(data["genome"])
-        if not genome or not all(type(c) is int and 0 <= c < CODON_LIMIT for c in genome):
-            raise ValueError(f"genome of individual {data['key']}: codons in [0, {CODON_LIMIT})")
-        phenotype, used = self._mapper.map(genome, self.settings.max_wraps)
-        generation, key = int(data["generation"]), int(data["key"])
-        return Individual(generation, key, genome, phenotype, used, float(data["fitness"]))
-
-
-def _fitness_of(individual: Individual) -> float:
-    return WORST_FITNESS if individual.fitness is None else individual.fitness
-
-
-def _ranked(individuals: Sequence[Individual]) -> list[Individual]:
-    """Best first; equals stay in their order."""
-    return sorted(individuals, key=_fitness_of, reverse=True)
-
-
-def _to_json(individual: Individual) -> dict[str, Any]:
-    return {
-        "generation": individual.generation,
-        "key": individual.key,
-        "fitness": individual.fitness,
-        "phenotype": individual.phenotype,
-        "genome": list(individual.genome),
-    }
 
 
 def _checked_fitness(fitness: Sequence[float], asked: list[Individual]) -> list[float]:

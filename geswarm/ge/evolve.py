@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from geswarm.ge.engine import Engine, Individual
+from geswarm.ge.engine import Engine
+from geswarm.ge.individual import Individual
 from geswarm.ge.record import GenerationRecord
+from geswarm.ge.steering import Steering
 from geswarm.ge.store import RunStore
 
 Objective: TypeAlias = Callable[[int, Sequence[Individual]], Sequence[float]]
@@ -40,6 +42,7 @@ def evolve(
     store: RunStore | None = None,
     on_generation: Callable[[GenerationRecord], None] | None = None,
     stop: Callable[[], bool] | None = None,
+    steering: Callable[[], Iterable[Steering]] | None = None,
 ) -> Result:
     """Run an engine to its last generation.
 
@@ -53,6 +56,8 @@ def evolve(
         on_generation: Called after each generation, in the calling thread; while it blocks, the
             evolution pauses.
         stop: Asked before each generation, for example `threading.Event().is_set`.
+        steering: Asked before each generation for what is to change from it on; applied to the
+            engine and committed to the store.
 
     Raises:
         FitnessError: The objective gave something else than one fitness per individual.
@@ -60,6 +65,10 @@ def evolve(
     """
     records: list[GenerationRecord] = []
     while not engine.finished and not (stop and stop()):
+        for change in steering() if steering else ():
+            change.apply(engine)
+            if store:
+                store.record_steering(engine.generation + 1, change)
         began = time.perf_counter()
         try:
             asked = engine.ask()
@@ -70,7 +79,7 @@ def evolve(
         finally:
             engine.withdraw()
         if store and engine.best:
-            store.append(record, engine.best, engine.state())
+            store.append(record, engine.best, engine.state(), engine.offspring)
         records.append(record)
         if on_generation:
             on_generation(record)

@@ -1,8 +1,10 @@
 """Context-free grammars in Backus-Naur form (O'Neill & Ryan 2001), read from `.bnf` files.
 
 The subset that GEVA and PonyGE2 share: `<name> ::= a | b`, terminals quoted with " or ' or bare,
-`#` comments, alternatives continued on following lines, `""` for the empty alternative. A terminal
-of several words is a sequence of words: the language is whitespace-insensitive.
+`#` comments, alternatives continued on following lines, `""` for the empty alternative.
+
+Symbols that touch in the file touch in the sentence; white space between them, or inside quotes, is
+a single space in the sentence: `<digit><digit>.<digit>` gives 12.5, `<expr> + <expr>` gives x + y.
 """
 
 from __future__ import annotations
@@ -29,7 +31,10 @@ class NonTerminal:
 
 
 Symbol: TypeAlias = str | NonTerminal
-"""A terminal word, or a non-terminal."""
+"""A terminal: a word or SPACE; or a non-terminal."""
+
+SPACE = " "
+"""White space: one space, however many of them meet, and none at the ends of a sentence."""
 
 Alternative: TypeAlias = tuple[Symbol, ...]
 
@@ -120,7 +125,7 @@ _TOKEN = re.compile(
       | (?P<name>(?!<GECodonValue){_NAME})
       | (?P<bar>\|)
       | (?P<quoted>"[^"\n]*" | '[^'\n]*')
-      | (?P<broken>["'][^\n]* | ::= | <GECodonValue[^\n]* | \\)
+      | (?P<broken>["'][^\n]* | ::= | <GECodonValue[^\n]* | GE_RANGE:[^\n]* | \\)
       | (?P<word>(?:(?!{_NAME}|<GECodonValue|::=)[^\s|"'\#\\])+)""",
     re.VERBOSE,
 )
@@ -129,6 +134,7 @@ _WHY_BROKEN = {
     "'": "expected a closing ' on the same line",
     ":": "unexpected ::=, expected it only after a <name> that begins a line",
     "<": "GECodonValue is not supported, expected the alternatives written out",
+    "G": "GE_RANGE is not supported, expected the alternatives written out",
     "\\": "unexpected backslash outside quotes, expected quoted or plain words",
 }
 
@@ -148,6 +154,7 @@ class _Reader:
         body: list[Alternative] | None = None
         symbols: list[Symbol] | None = None  # of the present alternative; None: nothing yet
         line = at = 1
+        apart = False  # there was white space since the last symbol
         for match in _TOKEN.finditer(text):
             kind, token, at = match.lastgroup, match.group(), line
             line += token.count("\n")
@@ -165,8 +172,9 @@ class _Reader:
                 self.findings.append((at, f"expected <name> ::= to begin a rule, got {token!r}"))
                 return
             elif kind != "space":
-                symbols = symbols or []
+                symbols = [*symbols, SPACE] if symbols and apart else symbols or []
                 symbols += self._symbols(kind, token, at)
+            apart = kind == "space"
         self._close(body, symbols, at)
         if not self.rules and not self.findings:
             self.findings.append((1, "there is no rule, expected <name> ::= a | b"))
@@ -196,7 +204,7 @@ class _Reader:
         if kind == "name":
             self.uses.setdefault(token[1:-1], line)
             return [NonTerminal(token[1:-1])]
-        return [*(token[1:-1] if kind == "quoted" else token).split()]
+        return list(_terminals(token[1:-1] if kind == "quoted" else token))
 
     def fill(self, vocabulary: Mapping[str, Sequence[str]]) -> None:
         """Define the non-terminals that the file leaves open."""
@@ -211,7 +219,7 @@ class _Reader:
                 self.findings.append((self.uses[name], message))
             else:
                 self.lines[name] = self.uses[name]
-            self.rules.setdefault(name, [tuple(word.split()) for word in words])
+            self.rules.setdefault(name, [_terminals(word) for word in words])
 
     def check(self) -> None:
         """Find what keeps the grammar from deriving sentences."""
@@ -269,6 +277,11 @@ class _Reader:
         for name, line in self.lines.items():
             if name not in reached:
                 yield f"{self.source}:{line}: <{name}> cannot be reached from the first rule"
+
+
+def _terminals(text: str) -> tuple[str, ...]:
+    """Words, with SPACE for each stretch of white space."""
+    return tuple(SPACE if part.isspace() else part for part in re.findall(r"\s+|\S+", text))
 
 
 def _names(alternative: Alternative) -> set[str]:

@@ -1,8 +1,7 @@
 """The inverse of the mapping: from a sentence of the grammar to a genome that maps to it.
 
-The sentence is parsed by Earley's algorithm (1970) with the nullable rule of Aycock and Horspool
-(2002), straight on the characters: a word of the grammar may follow any white space, and commas may
-touch words. Of an ambiguous sentence the derivation that is found first is taken.
+The sentence is parsed by Earley's algorithm (1970), straight on the characters. Of an ambiguous
+sentence the derivation that is found first is taken.
 """
 
 from __future__ import annotations
@@ -13,11 +12,12 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geswarm.ge.grammar import Alternative, Grammar, NonTerminal
+from geswarm.ge.grammar import SPACE, Alternative, Grammar
 from geswarm.ge.mapping import CODON_LIMIT, Genome
 
 _SPACE = re.compile(r"\s*")
 _WORD = re.compile(r"[^\s,]+|,")
+_NAME = re.compile(r"[\w.]")
 
 
 class NotASentenceError(ValueError):
@@ -56,7 +56,13 @@ def choices_of(grammar: Grammar, text: str) -> list[tuple[int, int]]:
     Raises:
         NotASentenceError: The grammar does not derive the text.
     """
-    return list(_Parser(grammar, text).choices())
+    exact = _Parser(grammar, text)
+    if exact.root is not None:
+        return list(exact.choices(exact.root))
+    lenient = _Parser(grammar, text, lenient=True)
+    if lenient.root is None:
+        raise lenient.error()
+    return list(lenient.choices(lenient.root))
 
 
 def genome_of(grammar: Grammar, text: str, rng: np.random.Generator | None = None) -> Genome:
@@ -64,7 +70,8 @@ def genome_of(grammar: Grammar, text: str, rng: np.random.Generator | None = Non
 
     Args:
         grammar: The grammar.
-        text: A sentence of it; white space does not matter.
+        text: A sentence of it; white space between words may be left out or put in line breaks
+            where the grammar has a space, and words stay apart.
         rng: If given, codons are drawn uniformly among those that make the right choice;
             otherwise they are the smallest.
 
@@ -91,50 +98,55 @@ class _Item(NamedTuple):
     begin: int
 
 
-# How an item was reached: the end of the same item one symbol earlier, and what that symbol was: a
-# completed item, the name of a non-terminal that stands for nothing, or None for a word.
-_Step: TypeAlias = "tuple[int, _Item | str | None]"
+# How an item was reached: the end of the same item one symbol earlier, and the completed item that
+# this symbol was, or None for a terminal.
+_Step: TypeAlias = "tuple[int, _Item | None]"
 
 
 class _Parser:
-    """Earley chart: for every character position the items that end there."""
+    """Earley chart: for every character position the items that end there.
 
-    def __init__(self, grammar: Grammar, text: str) -> None:
+    Attributes:
+        root: The start symbol, derived; None if the text is no sentence.
+    """
+
+    def __init__(self, grammar: Grammar, text: str, lenient: bool = False) -> None:
         self.rules = grammar.rules
         self.start = grammar.start
         self.text = text
-        self.empty = _empty_alternatives(grammar)
+        self.end = len(text.rstrip())
+        self.begin = min(self._skip_space(0), self.end)
+        self.lenient = lenient
         self.chart: list[dict[_Item, _Step | None]] = [{} for _ in range(len(text) + 1)]
         self.waiting: dict[tuple[int, str], list[_Item]] = {}
-        begin = self._skip_space(0)
-        self._predict(self.start, begin)
-        furthest = begin
-        for position in range(begin, len(text) + 1):
+        self._predict(self.start, self.begin)
+        self.furthest = self.begin
+        for position in range(self.begin, len(text) + 1):
             if self.chart[position]:
-                furthest = position
+                self.furthest = position
                 self._process(position)
-        self.begin = begin
-        whole = self._whole(len(text))
-        if whole is None:
-            raise NotASentenceError(text, furthest, self._expected(furthest))
-        self.root = whole
+        self.root = self._whole(self.end)
 
-    def choices(self) -> Iterator[tuple[int, int]]:
+    def choices(self, root: _Item) -> Iterator[tuple[int, int]]:
         """Walk the derivation tree in preorder."""
-        stack: list[tuple[int, _Item | str]] = [(len(self.text), self.root)]
+        stack = [(self.end, root)]
         while stack:
-            end, node = stack.pop()
-            name = node if isinstance(node, str) else node.name
-            chosen = self.empty[name] if isinstance(node, str) else node.alternative
-            if len(self.rules[name]) > 1:
-                yield chosen, len(self.rules[name])
-            if isinstance(node, str):
-                symbols = reversed(self.rules[name][chosen])
-                stack += [(end, one.name) for one in symbols if isinstance(one, NonTerminal)]
-            else:
-                stack += self._children(end, node)
+            end, item = stack.pop()
+            if len(self.rules[item.name]) > 1:
+                yield item.alternative, len(self.rules[item.name])
+            stack += self._children(end, item)
 
-    def _children(self, end: int, item: _Item) -> Iterator[tuple[int, _Item | str]]:
+    def error(self) -> NotASentenceError:
+        """Where the text stops being a sentence, at the beginning of a word if possible."""
+        at = self.furthest
+        if _NAME.match(self.text, at):
+            word = at
+            while word > self.begin and _NAME.match(self.text, word - 1):
+                word -= 1
+            at = word if self._expected(word) else at
+        return NotASentenceError(self.text, at, self._expected(at))
+
+    def _children(self, end: int, item: _Item) -> Iterator[tuple[int, _Item]]:
         """The non-terminals below a completed item with their ends, last first."""
         while item.dot:
             step = self.chart[end][item]
@@ -149,25 +161,30 @@ class _Parser:
 
     def _process(self, position: int) -> None:
         """Complete, predict and scan at one position, until nothing is added."""
-        items = self.chart[position]
-        agenda = list(items)
+        agenda = list(self.chart[position])
+        empty: dict[str, _Item] = {}  # what is complete here and began here
         for item in agenda:  # grows while it is walked
             alternative = self._alternative(item)
             if item.dot == len(alternative):
+                if item.begin == position:
+                    empty.setdefault(item.name, item)
                 for parent in self.waiting.get((item.begin, item.name), ()):
                     self._advance(parent, item.begin, item, position, agenda)
                 continue
             symbol = alternative[item.dot]
-            if isinstance(symbol, str):
-                self._scan(item, symbol, position)
-                continue
-            key = (position, symbol.name)
-            if key not in self.waiting:
-                self.waiting[key] = []
-                agenda += self._predict(symbol.name, position)
-            self.waiting[key].append(item)
-            if symbol.name in self.empty:
-                self._advance(item, position, symbol.name, position, agenda)
+            if symbol == SPACE:
+                self._scan_space(item, position, agenda)
+            elif isinstance(symbol, str):
+                if self.text.startswith(symbol, position):
+                    self._advance(item, position, None, position + len(symbol), None)
+            else:
+                key = (position, symbol.name)
+                if key not in self.waiting:
+                    self.waiting[key] = []
+                    agenda += self._predict(symbol.name, position)
+                self.waiting[key].append(item)
+                if symbol.name in empty:
+                    self._advance(item, position, empty[symbol.name], position, agenda)
 
     def _predict(self, name: str, position: int) -> list[_Item]:
         predicted = [_Item(name, at, 0, position) for at in range(len(self.rules[name]))]
@@ -176,22 +193,28 @@ class _Parser:
         return fresh
 
     def _advance(
-        self, item: _Item, end: int, child: _Item | str, position: int, agenda: list[_Item]
+        self, item: _Item, end: int, child: _Item | None, position: int, agenda: list[_Item] | None
     ) -> None:
-        """Move an item that ends at `end` over a child that ends at `position`."""
+        """Move an item that ends at `end` over a symbol that ends at `position`.
+
+        The agenda is that of the position, if the item is to be looked at now.
+        """
         advanced = item._replace(dot=item.dot + 1)
         if advanced not in self.chart[position]:
             self.chart[position][advanced] = (end, child)
-            agenda.append(advanced)
+            if agenda is not None:
+                agenda.append(advanced)
 
-    def _scan(self, item: _Item, word: str, position: int) -> None:
-        end = position + len(word)
-        if not self.text.startswith(word, position):
+    def _scan_space(self, item: _Item, position: int, agenda: list[_Item]) -> None:
+        """White space; none is needed where there was some, or where words stay apart."""
+        after = self._skip_space(position)
+        if after > position:
+            self._advance(item, position, None, after, None)
             return
-        if _is_part_of_name(word[-1]) and _is_part_of_name(self.text[end : end + 1]):
-            return
-        advanced = item._replace(dot=item.dot + 1)
-        self.chart[self._skip_space(end)].setdefault(advanced, (position, None))
+        before, here = self.text[position - 1 : position], self.text[position : position + 1]
+        at_edge = position in (self.begin, self.end) or before.isspace()
+        if at_edge or (self.lenient and not (_is_part_of_name(before) and _is_part_of_name(here))):
+            self._advance(item, position, None, position, agenda)
 
     def _skip_space(self, position: int) -> int:
         found = _SPACE.match(self.text, position)
@@ -209,27 +232,13 @@ class _Parser:
         words: dict[str, None] = {}
         for item in self.chart[position]:
             following = self._alternative(item)[item.dot : item.dot + 1]
-            words.update({word: None for word in following if isinstance(word, str)})
+            words.update(
+                {word: None for word in following if isinstance(word, str) and word != SPACE}
+            )
         expected = [repr(word) for word in words]
-        return [*expected, "the end"] if self._whole(position) else expected
+        ended = len(self.text[:position].rstrip())
+        return [*expected, "the end"] if self._whole(ended) else expected
 
 
 def _is_part_of_name(character: str) -> bool:
     return character.isalnum() or character == "_"
-
-
-def _empty_alternatives(grammar: Grammar) -> dict[str, int]:
-    """For every non-terminal that can derive nothing: the alternative that does."""
-    empty: dict[str, int] = {}
-    grown = True
-    while grown:
-        grown = False
-        for name, alternatives in grammar.rules.items():
-            for at, alternative in enumerate(alternatives):
-                if name not in empty and all(
-                    isinstance(symbol, NonTerminal) and symbol.name in empty
-                    for symbol in alternative
-                ):
-                    empty[name] = at
-                    grown = True
-    return empty

@@ -33,15 +33,6 @@ class Derivation(NamedTuple):
     used: int
 
 
-def join(words: Sequence[str]) -> str:
-    """A sentence from its words: single spaces, none before a comma."""
-    return "".join(map(_spaced, words)).lstrip(" ")
-
-
-def _spaced(word: str) -> str:
-    return word if word.startswith(",") else " " + word
-
-
 # A choice is the list of its expansions: the text that comes first, then what is still to be done,
 # last first, so that it can be pushed onto a stack; a str is text to emit between choices.
 _Choice: TypeAlias = "list[tuple[str, tuple[_Choice | str, ...]]]"
@@ -96,7 +87,7 @@ class Mapper:
                     push(rest)
         except StopIteration:
             return Derivation(None, used)
-        return Derivation("".join(parts).lstrip(" "), used)
+        return Derivation(" ".join("".join(parts).split()), used)
 
     def _expansion(
         self, lead: str, alternative: Alternative, unfinished: list[tuple[str, str]]
@@ -109,7 +100,7 @@ class Mapper:
         while waiting:
             symbol = waiting.pop()
             if isinstance(symbol, str):
-                text += _spaced(symbol)
+                text += symbol
             elif self.grammar.choices(symbol.name) == 1:
                 waiting.extend(reversed(self.grammar.rules[symbol.name][0]))
             else:

@@ -81,3 +81,19 @@ def roulette(fitness: Sequence[float], count: int, rng: np.random.Generator) -> 
     # The last slot with a share catches a spin that rounding puts on the wheel's very end.
     drawn = np.minimum(np.searchsorted(wheel, spins, side="right"), np.flatnonzero(shares)[-1])
     return [int(index) for index in drawn]
+
+
+def tournament(
+    places: Sequence[int], count: int, contenders: int, rng: np.random.Generator
+) -> list[int]:
+    """Draw `count` indices: each the best placed of `contenders` drawn with replacement.
+
+    Args:
+        places: Place of each in the ranking, 0 for the best.
+        count: How many to draw.
+        contenders: Per tournament; 1 is no selection.
+        rng: Where the contenders come from.
+    """
+    drawn = rng.integers(len(places), size=(count, contenders))
+    best = np.asarray(places)[drawn].argmin(axis=1)
+    return [int(index) for index in drawn[np.arange(count), best]]

@@ -11,9 +11,10 @@ class GenerationRecord:
 
     Attributes:
         generation: Its number; the initial generation is 1.
-        best_so_far: Highest fitness since the beginning of the run.
-        best: Highest fitness among the individuals bred for this generation; elites, which keep
-            the fitness of their time, are not among them.
+        best_so_far: Fitness of the best individual so far. If elites keep the fitness of their
+            time, it is the highest since the beginning; if they are evaluated again, it is the mean
+            of all evaluations of the best, which can also fall.
+        best: Highest fitness among the individuals bred for this generation, elites not included.
         mean: Mean fitness of the same individuals; invalid ones count as 0.
         invalid: How many of them are invalid: their mapping did not finish.
         distinct: Different phenotypes among them.

@@ -3,7 +3,36 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {},
+    "modern": {
+        "initialisation": "grow",
+        "selection": "tournament",
+        "tournament": 6,
+        "variation": "derivation",
+        "crossover": 0.5,
+        "mutation": 0.5,
+        "elitism": 0.2,
+        "common_random_numbers": True,
+        "share_evaluations": True,
+        "reevaluate_elites": True,
+        "parsimony": True,
+    },
+}
+"""What the presets change of the defaults, by name."""
+
+STEERABLE = ("crossover", "mutation", "scaling", "tournament")
+"""What may change between generations."""
+
+_KINDS = {
+    "initialisation": ("random", "grow"),
+    "selection": ("roulette", "tournament"),
+    "variation": ("codons", "derivation"),
+}
+_SWITCHES = ("common_random_numbers", "share_evaluations", "reevaluate_elites", "parsimony")
 
 
 class SettingsError(ValueError):
@@ -22,11 +51,24 @@ class Settings:
         population: Individuals per generation.
         generations: Generations to evaluate, the initial one included.
         evaluations: Simulations per individual; the objective averages over them.
-        crossover: Probability that a pair of parents is crossed over.
-        mutation: Probability, per codon, that it is redrawn.
+        crossover: Probability that two parents are crossed over.
+        mutation: Probability, per codon, that it is redrawn; on the derivation tree, that there is
+            a local change, and then that there is another one.
         elitism: Fraction of the population that survives unchanged.
         max_wraps: Passes over a genome after the first one (GEVA's usual value).
         max_codons: Longest genome; a guard, far beyond what the rules need.
+        initialisation: `random` derivations (paper, section 2.2), or `grow`: position-independent
+            grow to depths that differ, without duplicates (Fagan et al. 2016).
+        selection: `roulette` wheel, or `tournament`.
+        scaling: Roulette-wheel shares are fitness to this power; 1 is proportional.
+        tournament: Contenders per tournament, drawn with replacement.
+        variation: Operators on `codons`, as GEVA's, or on the `derivation` tree.
+        common_random_numbers: All individuals of a generation are evaluated with the same random
+            numbers: differences between them are less due to chance.
+        share_evaluations: Individuals that behave the same are one for the evaluation.
+        reevaluate_elites: Elites are evaluated again in each generation and ranked by the mean of
+            all their evaluations, so that luck does not survive.
+        parsimony: Among equals, the one with fewer codons ranks first.
 
     Raises:
         SettingsError: Values that cannot be used: every field, what was expected and given.
@@ -40,20 +82,57 @@ class Settings:
     elitism: float = 0.05
     max_wraps: int = 3
     max_codons: int = 1000
+    initialisation: str = "random"
+    selection: str = "roulette"
+    scaling: float = 1.0
+    tournament: int = 3
+    variation: str = "codons"
+    common_random_numbers: bool = False
+    share_evaluations: bool = False
+    reevaluate_elites: bool = False
+    parsimony: bool = False
 
     def __post_init__(self) -> None:
         findings = [
             *(self._whole(name, 1) for name in ("generations", "evaluations", "max_codons")),
             self._whole("population", 2),
             self._whole("max_wraps", 0),
-            self._fraction("crossover", "a probability in [0, 1]"),
-            self._fraction("mutation", "a probability in [0, 1]"),
-            self._fraction("elitism", "a fraction of the population in [0, 1)", below=1.0),
+            self._whole("tournament", 1),
+            self._number("crossover", "a probability in [0, 1]"),
+            self._number("mutation", "a probability in [0, 1]"),
+            self._number("elitism", "a fraction of the population in [0, 1)", below=1.0),
+            self._number("scaling", "a power in [0, 100]", most=100.0),
+            *(self._one_of(name, allowed) for name, allowed in _KINDS.items()),
+            *(self._one_of(name, (True, False)) for name in _SWITCHES),
         ]
         order = [field.name for field in fields(self)]
         given = [finding for finding in findings if finding]
         if given:
             raise SettingsError(sorted(given, key=lambda text: order.index(text.split(":")[0])))
+
+    @classmethod
+    def preset(cls, name: str, **changes: Any) -> Settings:
+        """The settings of a preset, with changes.
+
+        Raises:
+            SettingsError: There is no such preset, no such setting, or a value cannot be used.
+        """
+        if name not in PRESETS:
+            raise SettingsError([f"preset: expected {_either(PRESETS)}, got {name!r}"])
+        return cls(**{**PRESETS[name], **_known(changes, [field.name for field in fields(cls)])})
+
+    def steered(self, **changes: Any) -> Settings:
+        """These settings with changes that are allowed between generations: `STEERABLE`.
+
+        Raises:
+            SettingsError: Something else is to be changed, or a value cannot be used.
+        """
+        return replace(self, **_known(changes, STEERABLE))
+
+    @property
+    def steerable(self) -> dict[str, float]:
+        """The present values of what may change between generations."""
+        return {name: getattr(self, name) for name in STEERABLE}
 
     @property
     def elites(self) -> int:
@@ -68,13 +147,31 @@ class Settings:
             return ""
         return f"{name}: expected a whole number >= {least}, got {value!r}"
 
-    def _fraction(self, name: str, expected: str, below: float = math.inf) -> str:
+    def _number(self, name: str, expected: str, most: float = 1.0, below: float = math.inf) -> str:
         value = getattr(self, name)
         if (
             isinstance(value, int | float)
             and not isinstance(value, bool)
-            and 0 <= value <= 1
+            and 0 <= value <= most
             and value < below
         ):
             return ""
         return f"{name}: expected {expected}, got {value!r}"
+
+    def _one_of(self, name: str, allowed: tuple[Any, ...]) -> str:
+        value = getattr(self, name)
+        if any(value is one or (isinstance(value, str) and value == one) for one in allowed):
+            return ""
+        return f"{name}: expected {_either(allowed)}, got {value!r}"
+
+
+def _known(changes: dict[str, Any], names: Any) -> dict[str, Any]:
+    """The changes, if all of them are of settings with these names."""
+    unknown = [name for name in changes if name not in names]
+    if unknown:
+        raise SettingsError([f"{name}: expected {_either(names)}" for name in unknown])
+    return changes
+
+
+def _either(names: Any) -> str:
+    return " or ".join(str(name) for name in names)

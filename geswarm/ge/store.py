@@ -11,44 +11,30 @@ from __future__ import annotations
 import json
 import sqlite3
 import threading
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from geswarm.ge.engine import Individual, State
+from geswarm.ge import database, steering
+from geswarm.ge.database import StoreError, kind_errors
+from geswarm.ge.engine import State
+from geswarm.ge.individual import Birth, Individual
 from geswarm.ge.record import GenerationRecord
+from geswarm.ge.steering import Steering, StoredSteering
 
-SCHEMA_VERSION = 1
-_APPLICATION_ID = 0x47455357  # "GESW" in the file's header says whose database it is
 _COLUMNS = ", ".join(f'"{field.name}"' for field in fields(GenerationRecord))
-_SCHEMA = f"""
-BEGIN;
-CREATE TABLE run (config TEXT NOT NULL);
-CREATE TABLE generation (
-    generation INTEGER PRIMARY KEY,
-    best_so_far REAL NOT NULL,
-    best REAL NOT NULL,
-    mean REAL NOT NULL,
-    invalid INTEGER NOT NULL,
-    "distinct" INTEGER NOT NULL,
-    seconds REAL NOT NULL,
-    best_phenotype TEXT NOT NULL,   -- of the best individual so far
-    best_generation INTEGER NOT NULL
-);
-CREATE TABLE checkpoint (
-    generation INTEGER PRIMARY KEY REFERENCES generation,
-    state TEXT NOT NULL             -- JSON; only the latest is kept
-);
-PRAGMA application_id = {_APPLICATION_ID};
-PRAGMA user_version = {SCHEMA_VERSION};
+_ANCESTORS = """
+WITH RECURSIVE line (generation, key) AS (
+    VALUES (?, ?)
+    UNION
+    SELECT json_extract(parent.value, '$[0]'), json_extract(parent.value, '$[1]')
+    FROM line JOIN individual USING (generation, key), json_each(individual.parents) AS parent
+)
+SELECT individual.* FROM individual JOIN line USING (generation, key) ORDER BY generation, key
 """
-
-
-class StoreError(OSError):
-    """A run directory cannot be used; says which, what was found and what to do."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +44,35 @@ class StoredBest:
     Attributes:
         phenotype: The sentence.
         generation: Generation in which it was bred.
+        key: Its number among those bred then.
         fitness: Its fitness.
     """
 
     phenotype: str
     generation: int
+    key: int
     fitness: float
+
+
+@dataclass(frozen=True)
+class StoredIndividual:
+    """Somebody who was bred; see `Individual`.
+
+    Attributes:
+        generation: Generation for which it was bred.
+        key: Its number among those.
+        parents: Births of its parents, none, one or two.
+        fitness: As it was told in its own generation.
+        codons: Codons that the mapping read.
+        phenotype: The sentence; None if it was invalid.
+    """
+
+    generation: int
+    key: int
+    parents: tuple[Birth, ...]
+    fitness: float
+    codons: int
+    phenotype: str | None
 
 
 class RunStore:
@@ -100,20 +109,10 @@ class RunStore:
                     f"{directory}: expected a directory without a run, found {name}; "
                     "choose another one, or resume this run"
                 )
-        with _kind_errors(directory, "cannot begin a run here"):
+        with kind_errors(directory, "cannot begin a run here"):
             directory.mkdir(parents=True, exist_ok=True)
-            connection = _connect(directory / "run.db", "rwc")
-            try:
-                connection.execute("PRAGMA journal_mode = WAL")
-                connection.executescript(_SCHEMA)
-                connection.execute("INSERT INTO run VALUES (?)", (config,))
-                connection.execute("COMMIT")
-                store = cls(directory, connection, config)
-                store._rebuild_copies()
-            except BaseException:
-                connection.close()
-                raise
-        return store
+            database.create(directory / "run.db", config)
+        return cls.open(directory)
 
     @classmethod
     def open(cls, directory: str | Path, read_only: bool = False) -> RunStore:
@@ -128,38 +127,80 @@ class RunStore:
         path = directory / "run.db"
         if not path.is_file():
             raise StoreError(f"{directory}: expected a run directory, found no run.db in it")
-        with _kind_errors(directory, "cannot open this run"):
-            with closing(_connect(path, "ro")) as connection:
-                config = _checked_config(connection, path)
-            connection = _connect(path, "ro" if read_only else "rw")
-            store = cls(directory, connection, config)
+        with kind_errors(directory, "cannot open this run"):
+            database.require_run(path)
+            with closing(database.connect_to_read(path)) as connection:
+                config = database.checked_config(connection, path)
+            connect = database.connect_to_read if read_only else database.connect_to_write
+            store = cls(directory, connect(path), config)
             if not read_only:
                 try:
                     store._rebuild_copies()
                 except BaseException:
-                    connection.close()
+                    store.close()
                     raise
         return store
 
-    def append(self, record: GenerationRecord, best: Individual, state: State) -> None:
-        """Commit a generation: its row, the best individual so far and the checkpoint.
+    def append(
+        self,
+        record: GenerationRecord,
+        best: Individual,
+        state: State,
+        offspring: Sequence[Individual] = (),
+    ) -> None:
+        """Commit a generation: its row, the best so far, who was bred, and the checkpoint.
 
         Raises:
             StoreError: It cannot be written (disk full), or is not the next one (another process
                 writes this run); all generations before it are safe.
         """
-        row = (*astuple(record), best.phenotype, best.generation)
-        checkpoint = json.dumps(state, separators=(",", ":"), allow_nan=False)
         number = record.generation
-        with _kind_errors(self.directory, f"cannot write generation {number}"), self._lock:
-            with _transaction(self._connection) as connection:
+        row = (*astuple(record), best.phenotype, *best.birth)
+        bred = [
+            (*one.birth, json.dumps(one.parents), one.value, one.used, one.phenotype)
+            for one in offspring
+        ]
+        checkpoint = json.dumps(state, separators=(",", ":"), allow_nan=False)
+        with kind_errors(self.directory, f"cannot write generation {number}"), self._lock:
+            with database.transaction(self._connection) as connection:
                 self._require_next(number)
-                marks = ", ".join("?" * len(row))
-                connection.execute(f"INSERT INTO generation VALUES ({marks})", row)
+                connection.execute(f"INSERT INTO generation VALUES ({_marks(row)})", row)
+                connection.executemany("INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?)", bred)
                 connection.execute("DELETE FROM checkpoint")
                 connection.execute("INSERT INTO checkpoint VALUES (?, ?)", (number, checkpoint))
             with (self.directory / "history.csv").open("a", encoding="utf-8", newline="") as file:
                 file.write(record.csv_row() + "\n")
+
+    def record_steering(self, generation: int, what: Steering) -> None:
+        """Commit what a person changed before a generation was bred.
+
+        Raises:
+            StoreError: It cannot be written, or another process writes this run.
+        """
+        row = (generation, json.dumps(steering.to_json(what)))
+        with (
+            kind_errors(self.directory, "cannot write the change"),
+            self._lock,
+            database.transaction(self._connection) as connection,
+        ):
+            self._require_next(generation)
+            connection.execute("INSERT INTO steering (generation, what) VALUES (?, ?)", row)
+
+    def steering(self) -> list[StoredSteering]:
+        """All that was changed, in order."""
+        rows = self._query("SELECT generation, what FROM steering ORDER BY number")
+        with kind_errors(self.directory, "the record of changes is damaged"):
+            return [StoredSteering(at, steering.from_json(json.loads(what))) for at, what in rows]
+
+    def individuals(self, generation: int) -> list[StoredIndividual]:
+        """Who was bred for a generation."""
+        return self._individuals(
+            "SELECT * FROM individual WHERE generation = ? ORDER BY key", (generation,)
+        )
+
+    def ancestors(self, birth: Birth) -> list[StoredIndividual]:
+        """An individual and everyone it descends from, oldest first."""
+        return self._individuals(_ANCESTORS, birth)
 
     def history(self) -> list[GenerationRecord]:
         """All generations so far."""
@@ -175,15 +216,16 @@ class RunStore:
         rows = self._query("SELECT state FROM checkpoint ORDER BY generation DESC LIMIT 1")
         if not rows:
             return None
-        with _kind_errors(self.directory, "the checkpoint is damaged"):
+        with kind_errors(self.directory, "the checkpoint is damaged"):
             state: State = json.loads(rows[0][0])
         return state
 
-    def best(self) -> StoredBest | None:
-        """The best individual so far; None before the first generation."""
+    def best(self, generation: int | None = None) -> StoredBest | None:
+        """The best individual after a generation, by default the last; None if it is not done."""
         rows = self._query(
-            "SELECT best_phenotype, best_generation, best_so_far FROM generation "
-            "ORDER BY generation DESC LIMIT 1"
+            "SELECT best_phenotype, best_generation, best_key, best_so_far FROM generation "
+            "WHERE ?1 IS NULL OR generation = ?1 ORDER BY generation DESC LIMIT 1",
+            (generation,),
         )
         return StoredBest(*rows[0]) if rows else None
 
@@ -203,9 +245,17 @@ class RunStore:
     ) -> None:
         self.close()
 
-    def _query(self, sql: str) -> list[tuple[Any, ...]]:
-        with _kind_errors(self.directory, "cannot read this run"), self._lock:
-            return self._connection.execute(sql).fetchall()
+    def _individuals(self, sql: str, values: Sequence[int]) -> list[StoredIndividual]:
+        rows = self._query(sql, values)
+        with kind_errors(self.directory, "the record of individuals is damaged"):
+            return [
+                StoredIndividual(at, key, tuple((g, k) for g, k in json.loads(parents)), *rest)
+                for at, key, parents, *rest in rows
+            ]
+
+    def _query(self, sql: str, values: Sequence[int | None] = ()) -> list[tuple[Any, ...]]:
+        with kind_errors(self.directory, "cannot read this run"), self._lock:
+            return self._connection.execute(sql, values).fetchall()
 
     def _require_next(self, number: int) -> None:
         (last,) = self._connection.execute("SELECT max(generation) FROM generation").fetchone()
@@ -223,61 +273,16 @@ class RunStore:
         _write_atomically(self.directory / "history.csv", "".join(f"{row}\n" for row in lines))
 
 
-def _connect(path: Path, mode: str) -> sqlite3.Connection:
-    uri = f"{path.absolute().as_uri()}?mode={mode}"
-    connection = sqlite3.connect(
-        uri, uri=True, timeout=10.0, isolation_level=None, check_same_thread=False
-    )
-    connection.execute("PRAGMA foreign_keys = ON")
-    return connection
-
-
-def _checked_config(connection: sqlite3.Connection, path: Path) -> str:
-    """The config text of a database that is a whole run of a version known here."""
-    (identity,) = connection.execute("PRAGMA application_id").fetchone()
-    (version,) = connection.execute("PRAGMA user_version").fetchone()
-    if identity != _APPLICATION_ID:
-        raise StoreError(f"{path}: expected a GESwarm run, found another kind of database")
-    if version > SCHEMA_VERSION:
-        raise StoreError(
-            f"{path}: expected format {SCHEMA_VERSION} or older, found {version}; "
-            "this run was made by a newer GESwarm"
-        )
-    (finding,) = connection.execute("PRAGMA quick_check(1)").fetchone()
-    if finding != "ok":
-        raise StoreError(f"{path}: the database is damaged: {finding}")
-    row = connection.execute("SELECT config FROM run").fetchone()
-    if row is None:
-        raise StoreError(f"{path}: the database is damaged: it has no configuration")
-    return str(row[0])
-
-
-@contextmanager
-def _transaction(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
-    connection.execute("BEGIN IMMEDIATE")
-    try:
-        yield connection
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
-
-
-@contextmanager
-def _kind_errors(directory: Path, problem: str) -> Iterator[None]:
-    """Turn what the system says into a StoreError that names the directory."""
-    try:
-        yield
-    except StoreError:
-        raise
-    except (sqlite3.Error, OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
-        raise StoreError(f"{directory}: {problem}: {reason}") from error
+def _marks(row: Sequence[object]) -> str:
+    return ", ".join("?" * len(row))
 
 
 def _write_atomically(path: Path, text: str) -> None:
     """Readers see the old file or the new one, never a part."""
     partial = path.with_name(path.name + ".part")
-    partial.write_text(text, encoding="utf-8", newline="")
-    partial.replace(path)
+    try:
+        partial.write_text(text, encoding="utf-8", newline="")
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise

@@ -1,19 +1,20 @@
 """What a rule set is: vocabulary, frozen model, text and YAML, checks, control table, presets.
 
->>> from geswarm.rules import load_rule_set, format_text
+>>> from geswarm.rules import describe, first_difference, load_rule_set, parse_text
 >>> evo8 = load_rule_set("evo8")
->>> print(format_text(evo8.__class__(evo8.rules[:1], name="EVO 8, R1")))
-name "EVO 8, R1"
-<BLANKLINE>
-# The switch to random walk for object exploration is probabilistic and can happen any time
-rule
-  while PHOTOTAXIS
-  do p = 0.05, RANDOM_WALK
-<BLANKLINE>
+>>> describe(parse_text("rule if ON_NEST == true do p = 1, DROP_OBJECT = true"))
+['When in the nest, drop the object.']
+>>> difference = first_difference(evo8, parse_text("rule do p = 0.5, PHOTOTAXIS"))
+>>> difference.first
+{'keep going to the light': 0.95, 'start walking at random': 0.05}
+>>> difference.second
+{'keep going to the light': 1.0}
 """
 
+from geswarm.rules.as_json import format_json, parse_json
 from geswarm.rules.check import check
 from geswarm.rules.compare import Difference, first_difference, same_behaviour
+from geswarm.rules.conditions import Condition
 from geswarm.rules.control_table import ControlTable, Indexing
 from geswarm.rules.edits import EditError, apply_edit
 from geswarm.rules.english import describe, describe_rule
@@ -38,6 +39,7 @@ from geswarm.rules.model import (
 )
 from geswarm.rules.paper_table import format_table
 from geswarm.rules.simplify import Simplification, simplify
+from geswarm.rules.state_machine import State, StateMachine, Transition
 from geswarm.rules.text import format_text, parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.rules.yaml_form import format_yaml, parse_yaml
@@ -47,6 +49,7 @@ __all__ = [
     "FORMATS",
     "Action",
     "BehaviourChange",
+    "Condition",
     "ControlTable",
     "Difference",
     "EditError",
@@ -60,18 +63,23 @@ __all__ = [
     "RuleSetError",
     "RuleSetNotFoundError",
     "Simplification",
+    "State",
     "StateChange",
+    "StateMachine",
+    "Transition",
     "Vocabulary",
     "apply_edit",
     "check",
     "describe",
     "describe_rule",
     "first_difference",
+    "format_json",
     "format_table",
     "format_text",
     "format_yaml",
     "load_preset",
     "load_rule_set",
+    "parse_json",
     "parse_text",
     "parse_yaml",
     "preset_names",

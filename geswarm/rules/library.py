@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from geswarm.rules.as_json import format_json, parse_json
 from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import RuleSet
 from geswarm.rules.names import unknown_name
@@ -17,7 +18,12 @@ from geswarm.rules.yaml_form import format_yaml, parse_yaml
 _PRESETS = Path(__file__).parent / "presets"
 _LOOKS_LIKE_YAML = re.compile(r"^\s*(schema|name|comment|origin|rules)\s*:", re.MULTILINE)
 
-FORMATS: dict[str, Callable[[RuleSet], str]] = {"yaml": format_yaml, "text": format_text}
+FORMATS: dict[str, Callable[[RuleSet], str]] = {
+    "yaml": format_yaml,
+    "text": format_text,
+    "json": format_json,
+}
+"""The forms that carry a whole rule set: `read_rule_set` reads each of them back."""
 
 
 class RuleSetNotFoundError(RuleSetError):
@@ -42,7 +48,7 @@ def load_preset(name: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
 
 
 def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
-    """Load what a user names: a preset, a YAML or text file, or `-` for standard input.
+    """Load what a user names: a preset, a YAML, text or JSON file, or `-` for standard input.
 
     Raises:
         RuleSetNotFoundError: There is neither a preset nor a readable file of that name.
@@ -66,25 +72,45 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
 
 
 def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -> RuleSet:
-    """Read YAML or the rule language, whichever the text is.
+    """Read YAML, JSON or the rule language, whichever the text is.
 
     Raises:
         RuleSetError: With every problem, each with file, line, rule and element.
     """
+    if source.endswith(".json") or text.lstrip().startswith("{"):
+        return parse_json(text, source, vocabulary)
     is_yaml = source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text)
     return (parse_yaml if is_yaml else parse_text)(text, source, vocabulary)
 
 
 def save_rule_set(rule_set: RuleSet, path: str | Path) -> None:
-    """Write a file, as YAML if its name ends so, else in the rule language.
+    """Write a file, as YAML or JSON if its name ends so, else in the rule language.
 
     The file is replaced as a whole, so that a failure leaves the old one as it was.
 
     Raises:
         OSError: The file cannot be written.
     """
+    forms = {".yaml": format_yaml, ".yml": format_yaml, ".json": format_json}
+    write_whole(forms.get(Path(path).suffix, format_text)(rule_set), path)
+
+
+def write_whole(text: str, path: str | Path) -> None:
+    """Replace a file as a whole: a failure leaves the old one as it was.
+
+    What is no plain file, such as a pipe or a link, is written to instead of replaced.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
     path = Path(path)
-    form = format_yaml if path.suffix in (".yaml", ".yml") else format_text
+    if path.is_symlink() or (path.exists() and not path.is_file()):
+        path.write_text(text, encoding="utf-8")
+        return
     draft = path.with_name(f".{path.name}.part")
-    draft.write_text(form(rule_set), encoding="utf-8")
-    draft.replace(path)
+    try:
+        draft.write_text(text, encoding="utf-8")
+        draft.replace(path)
+    except OSError:
+        draft.unlink(missing_ok=True)
+        raise

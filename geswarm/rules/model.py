@@ -106,3 +106,9 @@ class RuleSet:
     def active_rules(self) -> tuple[Rule, ...]:
         """The rules that are not switched off."""
         return tuple(rule for rule in self.rules if rule.enabled)
+
+    def _repr_html_(self) -> str:
+        """How notebooks show it: like the paper's tables."""
+        from geswarm.rules.exports.html import format_html
+
+        return format_html(self)

@@ -84,10 +84,9 @@ class Transition:
     @property
     def rate(self) -> str:
         """Probability per step and mean waiting time: `p = 0.05, 2 s`."""
-        wait = "at once" if self.probability == 1 else f"{self.mean_wait:.2g} s"
-        if self.mean_wait >= 100:
-            wait = f"{self.mean_wait:.0f} s"
-        return f"p = {self.probability:.6g}, {wait}"
+        digits = 0 if self.mean_wait >= 9.95 else 1 if self.mean_wait >= 0.95 else 2
+        wait = f"{self.mean_wait:.{digits}f} s".replace(".0 s", " s")
+        return f"p = {self.probability:.6g}, {'at once' if self.probability == 1 else wait}"
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,11 @@
 """`geswarm-ui --no-ui` as a user calls it."""
 
+import json
 import os
+import random
+import resource
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -44,13 +48,127 @@ def test_same_history_whatever_the_workers(tmp_path, quick):
     assert rows(tmp_path / "1") == rows(tmp_path / "2")
 
 
-def command(*arguments):
+def command(*arguments, **options):
     return subprocess.Popen(
         [sys.executable, "-m", "geswarm.app.main", *arguments],
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        **options,
     )
+
+
+def outcome(directory):
+    """All that a run leaves, without the seconds: rows, population, everyone who was bred."""
+    with sqlite3.connect(directory / "run.db") as database:
+        tables = [
+            database.execute(f"SELECT * FROM {name}").fetchall()
+            for name in ("checkpoint", "individual", "steering")
+        ]
+    return rows(directory), tables, (directory / "config.yaml").read_bytes()
+
+
+def generations(directory):
+    history = directory / "history.csv"
+    return len(history.read_text().splitlines()) if history.exists() else 0
+
+
+def killed_again_and_again(common, directory, kills, seed):
+    """Run to the end though it is killed at random moments; returns how often it was."""
+    moments = random.Random(seed)
+    killed = 0
+    while killed < kills:
+        begun = (directory / "run.db").exists()
+        process = command(*(["--no-ui", "--resume", str(directory)] if begun else common))
+        before = generations(directory)
+        starting = time.monotonic() + moments.uniform(0.2, 1.5)
+        early = moments.random() < 0.2  # perhaps before anything is written
+        while process.poll() is None and not (
+            time.monotonic() > starting if early else generations(directory) > before
+        ):
+            time.sleep(0.002)
+        time.sleep(moments.uniform(0.0, 0.2))
+        process.kill()
+        process.communicate()
+        if process.returncode == 0:
+            break
+        killed += 1
+    begun = (directory / "run.db").exists()
+    assert main(["--no-ui", "--resume", str(directory)] if begun else common) == 0
+    return killed
+
+
+@pytest.mark.parametrize(
+    ("preset", "kills"),
+    [
+        pytest.param("modern", 3, marks=pytest.mark.slow),
+        pytest.param("paper", 25, marks=pytest.mark.long),
+        pytest.param("modern", 25, marks=pytest.mark.long),
+    ],
+)
+def test_killed_at_random_moments_it_ends_the_same(tmp_path, preset, kills):
+    scenario = tmp_path / "quick.yaml"
+    scenario.write_text("extends: paper\nduration: 500\n")
+    common = [*SMALL, "--scenario", str(scenario), "--preset", preset]
+    common += ["--generations", str(50 * kills), "--out"]
+    assert main([*common, str(tmp_path / "whole")]) == 0
+    part = tmp_path / "part"
+    assert killed_again_and_again([*common, str(part)], part, kills, seed=kills) >= 0.8 * kills
+    assert outcome(part) == outcome(tmp_path / "whole")
+
+
+def limit_files():
+    """Files cannot grow beyond 200 kB, as if the disk were full."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+
+
+def test_a_full_disk_is_said_and_costs_nothing(tmp_path, quick):
+    common = [*SMALL, *quick, "--generations", "60", "--out"]
+    assert main([*common, str(tmp_path / "whole")]) == 0
+    part = tmp_path / "part"
+    process = command(*common, str(part), preexec_fn=limit_files)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert "cannot write" in err
+    assert f"--resume {part}" in err
+    assert "Traceback" not in err
+    assert 1 < len(rows(part)) < 61
+    assert main(["--no-ui", "--resume", str(part)]) == 0
+    assert outcome(part) == outcome(tmp_path / "whole")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="needs root to become another user")
+def test_a_directory_that_may_not_be_written_is_said(tmp_path, quick):
+    out = tmp_path / "run"
+    assert main([*SMALL, *quick, "--generations", "2", "--out", str(out)]) == 0
+    for path in (*reversed(out.parents[:4]), out):
+        path.chmod(0o755)
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    said = tmp_path / "said"
+    child = os.fork()
+    if child == 0:
+        os.dup2(os.open(said, os.O_CREAT | os.O_WRONLY), 2)
+        sys.stderr = os.fdopen(2, "w")
+        os.setuid(65534)
+        status = main(["--no-ui", "--resume", str(out)])
+        sys.stderr.flush()
+        os._exit(status)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 2
+    assert str(out) in said.read_text()
+    assert "Traceback" not in said.read_text()
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == before
+
+
+def test_presets(tmp_path, quick, capsys):
+    out = tmp_path / "run"
+    assert (
+        main([*SMALL, *quick, "--preset", "modern", "--generations", "2", "--out", str(out)]) == 0
+    )
+    assert "selection: tournament" in (out / "config.yaml").read_text()
+    with sqlite3.connect(out / "run.db") as database:
+        parents = database.execute("SELECT parents FROM individual WHERE generation = 2").fetchall()
+    assert all(1 <= len(json.loads(one)) <= 2 for (one,) in parents)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
@@ -81,6 +199,10 @@ def test_stopped_at_any_moment_it_goes_on_exactly(tmp_path, quick, number):
         (["--no-ui", "--resume", "nowhere"], "nowhere: expected a run directory"),
         (["--no-ui", "--scenario", "moon"], "moon"),
         (["--no-ui", "--population", "1"], "population: expected a whole number >= 2"),
+        (["--no-ui", "--preset", "best"], "preset: expected paper or modern, got 'best'"),
+        (["--no-ui", "--resume", "x", "--preset", "paper"], "--preset is fixed by the run"),
+        (["--no-ui", "--cluster", "x", "--workers", "2"], "--workers is for this machine"),
+        (["--cluster", "x"], "--cluster needs --no-ui"),
         (["--no-ui", "--out", "/proc/nowhere"], "/proc/nowhere"),
         (["--port", "99999"], "expected 0 to 65535"),
         (["--rules", "evo9"], "evo9: neither a file"),

@@ -20,13 +20,27 @@ def test_reads_the_common_subset():
         <op> ::= +|'|'|"#"
         """
     )
-    expr, op = NonTerminal("expr"), NonTerminal("op")
+    expr, op, space = NonTerminal("expr"), NonTerminal("op"), " "
     assert grammar.start == "expr"
     assert grammar.rules == {
-        "expr": ((expr, op, expr), ("(", expr, ")"), ("x",), ("1.0",), ("two", "words"), ()),
+        "expr": (
+            (expr, space, op, space, expr),
+            ("(", space, expr, space, ")"),
+            ("x",),
+            ("1.0",),
+            ("two", space, "words"),
+            (),
+        ),
         "op": (("+",), ("|",), ("#",)),
     }
     assert grammar.warnings == ()
+
+
+def test_white_space_is_kept_between_symbols_only():
+    grammar = Grammar.parse("<a> ::=  <b>x   y <b>\n  # comment\n  | ' x ' \n<b> ::= z ")
+    b = NonTerminal("b")
+    assert grammar.rules["a"] == ((b, "x", " ", "y", " ", b), (" ", "x", " "))
+    assert grammar.rules["b"] == (("z",),)
 
 
 def test_symbols_need_no_space_between_them():
@@ -51,6 +65,7 @@ def test_symbols_need_no_space_between_them():
         ("<a> ::= b\n<c> ::= <d>\n<d> ::= <c> x", 2, "<c> never ends"),
         ("<a> ::= <GECodonValue{1, 2}>", 1, "GECodonValue is not supported"),
         ("<a> ::= b\\n", 1, "unexpected backslash"),
+        ("<a> ::= x[<b>]\n<b> ::= GE_RANGE:n_vars", 2, "GE_RANGE is not supported"),
     ],
 )
 def test_an_error_says_where_and_what_was_expected(text, line, message):
@@ -79,7 +94,7 @@ def test_an_unreachable_rule_is_a_warning():
 
 def test_vocabulary_fills_open_names():
     grammar = Grammar.parse("<a> ::= <b> | x", vocabulary={"b": ["one", "two words"]})
-    assert grammar.rules["b"] == (("one",), ("two", "words"))
+    assert grammar.rules["b"] == (("one",), ("two", " ", "words"))
 
 
 def test_vocabulary_errors():

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import pytest
 
+from geswarm.ge.database import StoreError
 from geswarm.ge.engine import Engine
 from geswarm.ge.evolve import Stopped, evolve
 from geswarm.ge.settings import Settings
-from geswarm.ge.store import RunStore, StoreError
+from geswarm.ge.store import RunStore
 
 SMALL = Settings(population=12, generations=8)
 CONFIG = "seed: 3\nscenario: toy\n"
@@ -194,8 +195,8 @@ def empty(path):
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
-        (text, "cannot open this run: file is not a database"),
-        (empty, "found another kind of database"),
+        (text, "found a file that is no database"),
+        (empty, "found a file that is no database"),
         (newer, "made by a newer GESwarm"),
         (cut_off, "damaged|malformed"),
         (scrambled, "damaged|malformed"),
@@ -236,3 +237,30 @@ def test_a_full_disk_loses_nothing_that_was_committed(grammar, tmp_path):
     resume(grammar, tmp_path)
     with RunStore.open(tmp_path) as store:
         assert [record.generation for record in store.history()] == list(range(1, 9))
+
+
+def test_a_run_that_was_killed_while_it_was_made_can_be_made_again(grammar, tmp_path):
+    (tmp_path / "run.db.part").write_bytes(b"SQLite format 3\0 and nothing else")
+    with pytest.raises(StoreError, match=r"found no run\.db"):
+        RunStore.open(tmp_path)
+    with RunStore.create(tmp_path, CONFIG) as store:
+        evolve(Engine(grammar, SMALL, 3), objective, store)
+    assert not list(tmp_path.glob("*.part"))
+
+
+def test_a_finished_run_can_be_read_where_nothing_can_be_written(finished):
+    before = {path.name: path.read_bytes() for path in finished.iterdir()}
+    for path in (*finished.parents[:3], finished):
+        path.chmod(0o755)
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            if os.geteuid() == 0:
+                os.setuid(65534)
+            with RunStore.open(finished, read_only=True) as store:
+                status = int(len(store.history()) != 8 or store.best(3) is None)
+        finally:
+            os._exit(status)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert {path.name: path.read_bytes() for path in finished.iterdir()} == before

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given
 
 import geswarm.rules
+import geswarm.rules.exports
+import geswarm.rules.state_machine
 from geswarm.rules import (
     RuleSet,
     RuleSetError,
@@ -173,5 +175,9 @@ def test_table_looks_like_table_2():
     assert format_table(RuleSet())
 
 
-def test_docstring_example_is_true():
-    assert doctest.testmod(geswarm.rules).failed == 0
+@pytest.mark.parametrize(
+    "module", [geswarm.rules, geswarm.rules.exports, geswarm.rules.state_machine]
+)
+def test_docstring_examples_are_true(module):
+    results = doctest.testmod(module)
+    assert results.failed == 0 < results.attempted

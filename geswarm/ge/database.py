@@ -1,0 +1,158 @@
+"""The SQLite file of a run: its schema, and how it is made, recognised and opened."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+SCHEMA_VERSION = 1
+_APPLICATION_ID = 0x47455357  # "GESW" in the file's header says whose database it is
+_SCHEMA = f"""
+BEGIN;
+CREATE TABLE run (config TEXT NOT NULL);
+CREATE TABLE generation (
+    generation INTEGER PRIMARY KEY,
+    best_so_far REAL NOT NULL,
+    best REAL NOT NULL,
+    mean REAL NOT NULL,
+    invalid INTEGER NOT NULL,
+    "distinct" INTEGER NOT NULL,
+    seconds REAL NOT NULL,
+    best_phenotype TEXT NOT NULL,   -- of the best individual so far
+    best_generation INTEGER NOT NULL,
+    best_key INTEGER NOT NULL
+);
+CREATE TABLE individual (           -- everyone bred, with the fitness of then
+    generation INTEGER NOT NULL REFERENCES generation,
+    key INTEGER NOT NULL,
+    parents TEXT NOT NULL,          -- JSON: [[generation, key], ...]
+    fitness REAL NOT NULL,
+    codons INTEGER NOT NULL,        -- that the mapping read
+    phenotype TEXT,                 -- NULL: invalid
+    PRIMARY KEY (generation, key)
+) WITHOUT ROWID;
+CREATE TABLE steering (
+    number INTEGER PRIMARY KEY,
+    generation INTEGER NOT NULL,    -- the first one that it acts on
+    what TEXT NOT NULL              -- JSON: {{"inject": sentence}} or {{"settings": {{...}}}}
+);
+CREATE TABLE checkpoint (
+    generation INTEGER PRIMARY KEY REFERENCES generation,
+    state TEXT NOT NULL             -- JSON; only the latest is kept
+);
+PRAGMA application_id = {_APPLICATION_ID};
+PRAGMA user_version = {SCHEMA_VERSION};
+"""
+_HEADER = 100  # bytes; format of the file: sqlite.org/fileformat.html, section 1.3
+_MAGIC = b"SQLite format 3\0"
+
+
+class StoreError(OSError):
+    """A run directory cannot be used; says which, what was found and what to do."""
+
+
+def create(path: Path, config: str) -> None:
+    """Make the database of a run that has not begun; it is there as a whole or not at all."""
+    partial = path.with_name(path.name + ".part")
+    partial.unlink(missing_ok=True)
+    try:
+        with closing(connect(partial, "rwc")) as connection:
+            connection.execute("PRAGMA journal_mode = WAL")
+            connection.executescript(_SCHEMA)
+            connection.execute("INSERT INTO run VALUES (?)", (config,))
+            connection.execute("COMMIT")
+        partial.rename(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+
+
+def connect(path: Path, mode: str) -> sqlite3.Connection:
+    """Connect to a database: `ro`, `rw`, or `rwc` to make it."""
+    uri = f"{path.absolute().as_uri()}?mode={mode}"
+    connection = sqlite3.connect(
+        uri, uri=True, timeout=10.0, isolation_level=None, check_same_thread=False
+    )
+    connection.execute("PRAGMA foreign_keys = ON")
+    return connection
+
+
+def connect_to_write(path: Path) -> sqlite3.Connection:
+    """Connect to a database that is there."""
+    return connect(path, "rw")
+
+
+def connect_to_read(path: Path) -> sqlite3.Connection:
+    """Connect to a database that is only read, also where nothing can be written beside it."""
+    connection = connect(path, "ro")
+    try:
+        connection.execute("SELECT 1 FROM run").fetchall()
+    except sqlite3.OperationalError:
+        connection.close()
+        if path.with_name(path.name + "-wal").exists():
+            raise  # the latest generations are in there
+        connection = connect(path, "ro&immutable=1")
+    return connection
+
+
+def require_run(path: Path) -> None:
+    """Check whose file this is by its header alone, so that no foreign file is touched.
+
+    Raises:
+        StoreError: It is not a run.
+    """
+    with path.open("rb") as file:
+        header = file.read(_HEADER)
+    if len(header) < _HEADER or not header.startswith(_MAGIC):
+        raise StoreError(f"{path}: expected a GESwarm run, found a file that is no database")
+    identity = int.from_bytes(header[68:72], "big")
+    if identity != _APPLICATION_ID:
+        raise StoreError(f"{path}: expected a GESwarm run, found another kind of database")
+
+
+def checked_config(connection: sqlite3.Connection, path: Path) -> str:
+    """The config text of a run whose database is whole.
+
+    Raises:
+        StoreError: It is damaged, or of a newer version.
+    """
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    if version > SCHEMA_VERSION:
+        raise StoreError(
+            f"{path}: expected format {SCHEMA_VERSION} or older, found {version}; "
+            "this run was made by a newer GESwarm"
+        )
+    (finding,) = connection.execute("PRAGMA quick_check(1)").fetchone()
+    if finding != "ok":
+        raise StoreError(f"{path}: the database is damaged: {finding}")
+    row = connection.execute("SELECT config FROM run").fetchone()
+    if row is None:
+        raise StoreError(f"{path}: the database is damaged: it has no configuration")
+    return str(row[0])
+
+
+@contextmanager
+def transaction(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
+    """All that is done in it is committed, or nothing."""
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        yield connection
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+        raise
+
+
+@contextmanager
+def kind_errors(directory: Path, problem: str) -> Iterator[None]:
+    """Turn what the system says into a StoreError that names the directory."""
+    try:
+        yield
+    except StoreError:
+        raise
+    except (sqlite3.Error, OSError, ValueError, KeyError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise StoreError(f"{directory}: {problem}: {reason}") from error

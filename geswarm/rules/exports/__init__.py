@@ -1,0 +1,59 @@
+"""Rule sets in the forms in which people use them elsewhere: papers, ARGoS, AutoMoDe, pictures.
+
+>>> from geswarm.rules import load_rule_set
+>>> from geswarm.rules.exports import EXPORTS
+>>> print(EXPORTS["english"](load_rule_set("hand-coded")).splitlines()[3])
+R1. When away from the source and not holding an object, go to the light.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geswarm.rules.exports.argos_experiment import format_argos_experiment, format_floor
+from geswarm.rules.exports.argos_lua import format_argos_lua
+from geswarm.rules.exports.automode import AutoMoDe, format_automode, to_automode
+from geswarm.rules.exports.dot import format_dot
+from geswarm.rules.exports.html import format_html
+from geswarm.rules.exports.json_document import format_json_document, machine_to_json
+from geswarm.rules.exports.latex import format_latex
+from geswarm.rules.exports.mermaid import format_mermaid
+from geswarm.rules.exports.prose import format_english, format_markdown
+from geswarm.rules.exports.svg import format_svg, machine_svg
+from geswarm.rules.model import RuleSet
+from geswarm.rules.text import format_text
+from geswarm.rules.yaml_form import format_yaml
+
+EXPORTS: dict[str, Callable[[RuleSet], str]] = {
+    "yaml": format_yaml,
+    "text": format_text,
+    "json": format_json_document,
+    "english": format_english,
+    "markdown": format_markdown,
+    "latex": format_latex,
+    "mermaid": format_mermaid,
+    "dot": format_dot,
+    "svg": format_svg,
+    "automode": format_automode,
+}
+"""Everything that needs the rule set alone; `format_argos_lua` needs a scenario, too."""
+
+__all__ = [
+    "EXPORTS",
+    "AutoMoDe",
+    "format_argos_experiment",
+    "format_argos_lua",
+    "format_automode",
+    "format_dot",
+    "format_english",
+    "format_floor",
+    "format_html",
+    "format_json_document",
+    "format_latex",
+    "format_markdown",
+    "format_mermaid",
+    "format_svg",
+    "machine_svg",
+    "machine_to_json",
+    "to_automode",
+]

@@ -1,0 +1,153 @@
+"""A rule set as a controller script for ARGoS 3's foot-bot, complete in one Lua file.
+
+The rules are written out one by one, with their comments; all else stands in `footbot.lua` beside
+this module. Semantics and parameters are those of the model (paper, section 3.1.1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Protocol
+
+from geswarm.rules.elements import format_boolean, format_probability
+from geswarm.rules.english import describe_rule
+from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
+from geswarm.rules.names import require_known_names
+from geswarm.rules.vocabulary import FORAGING
+
+_TEMPLATE = Path(__file__).parent / "footbot.lua"
+
+
+class FootBotParameters(Protocol):
+    """What the script has to know of a scenario; every `geswarm.sim.Scenario` fits."""
+
+    @property
+    def name(self) -> str:
+        """Name of the scenario."""
+
+    @property
+    def zone_miss(self) -> float:
+        """Probability that a robot perceives neither zone in a control step."""
+
+    @property
+    def random_walk(self) -> tuple[float, float]:
+        """Shortest and longest time for which a random heading is kept (s)."""
+
+    @property
+    def max_speed(self) -> float:
+        """Highest speed of a wheel (m/s)."""
+
+    @property
+    def turn_gain(self) -> float:
+        """Turning speed per angle to the target (1/s)."""
+
+    @property
+    def proximity_range(self) -> float:
+        """Distance from the body's edge at which a wall is sensed (m)."""
+
+    @property
+    def rab_range(self) -> float:
+        """Distance between centres at which another robot is sensed (m)."""
+
+    @property
+    def avoidance_gain(self) -> float:
+        """Weight of the avoidance vector."""
+
+
+def format_argos_lua(rule_set: RuleSet, scenario: FootBotParameters) -> str:
+    """The controller script.
+
+    Raises:
+        RuleSetError: A name is not in the foraging vocabulary or a p is outside [0, 1].
+    """
+    require_known_names(rule_set)
+    parts = {
+        "HEADER": _header(rule_set),
+        "PARAMETERS": _parameters(scenario),
+        "RULES": _rules(rule_set),
+        "START": _start(),
+        "CLEAR": _clear(),
+    }
+    lines: list[str] = []
+    for line in _TEMPLATE.read_text(encoding="utf-8").splitlines():
+        lines += parts[line.strip("@")] if line.startswith("@") else [line]
+    return "\n".join(lines) + "\n"
+
+
+def _header(rule_set: RuleSet) -> Iterator[str]:
+    yield from _comment(rule_set.name or "Rule set", "")
+    if rule_set.comment:
+        yield from ("--", *_comment(rule_set.comment, ""))
+    yield "--"
+    yield "-- Controller of a foot-bot in ARGoS 3, written by GESwarm."
+    yield "--"
+
+
+def _parameters(scenario: FootBotParameters) -> Iterator[str]:
+    shortest, longest = scenario.random_walk
+    yield from _comment(f"Scenario: {scenario.name}", "")
+    for name, value, meaning in (
+        ("ZONE_MISS", scenario.zone_miss, "probability per step to perceive neither zone"),
+        ("WALK_MIN", shortest, "s, shortest time for which a random heading is kept"),
+        ("WALK_MAX", longest, "s, longest"),
+        ("MAX_SPEED", scenario.max_speed, "m/s, of a wheel"),
+        ("TURN_GAIN", scenario.turn_gain, "1/s, turning speed per angle"),
+        ("PROXIMITY_RANGE", scenario.proximity_range, "m, at which a wall is avoided"),
+        ("RAB_RANGE", scenario.rab_range, "m, at which another robot is avoided"),
+        ("AVOIDANCE_GAIN", scenario.avoidance_gain, "weight of avoidance"),
+    ):
+        yield f"{f'local {name} = {format_probability(value)}':<34} -- {meaning}"
+
+
+def _start() -> Iterator[str]:
+    yield f'  BEHAVIOUR = "{FORAGING.initial_behaviour}"'
+    for state in FORAGING.internal_states:
+        yield f"  {state.name} = {format_boolean(state.initially)}"
+
+
+def _clear() -> Iterator[str]:
+    for state in FORAGING.internal_states:
+        if state.momentary:
+            yield f"  {state.name} = false"
+
+
+def _rules(rule_set: RuleSet) -> Iterator[str]:
+    for number, rule in enumerate(rule_set.rules, start=1):
+        if number > 1:
+            yield ""
+        yield from _comment(f"R{number}: {rule.comment or describe_rule(rule)}", "  ")
+        if rule.enabled:
+            yield from _rule(rule)
+        else:
+            yield "  -- (switched off)"
+
+
+def _rule(rule: Rule) -> Iterator[str]:
+    conditions = [_precondition(entry) for entry in rule.preconditions]
+    executing = [f'BEHAVIOUR == "{name}"' for name in rule.behaviours]
+    if len(executing) > 1:
+        conditions.append(f"({' or '.join(executing)})")
+    else:
+        conditions += executing
+    yield f"  if {' and '.join(conditions) or 'true'} then"
+    for action in rule.actions:
+        yield f"    if chance({format_probability(action.p)}) then {_deed(action)} end"
+    yield "  end"
+
+
+def _precondition(precondition: Precondition) -> str:
+    percept = precondition.name.lower()
+    return percept if precondition.holds else f"not {percept}"
+
+
+def _deed(action: Action) -> str:
+    if isinstance(action, BehaviourChange):
+        return f'change_to("{action.behaviour}")'
+    return f"{action.state} = {format_boolean(action.value)}"
+
+
+def _comment(text: str, indent: str) -> Iterator[str]:
+    """Free text as comment lines; the space keeps `[[` from opening a long comment."""
+    for line in text.split("\n"):
+        yield f"{indent}-- {line}".rstrip()

@@ -1,0 +1,70 @@
+"""A rule set and its state machine as one JSON document.
+
+    {"schema": 1, "name", "comment", "origin", "rules",       as in `geswarm.rules.as_json`
+     "state_machine": {
+        "step_seconds": 0.1,
+        "states": [{"behaviour", "internal": {name: bool}, "initial": bool}],
+        "transitions": [{"source", "target": indices into states,
+                         "condition": [{percept: bool}, ...]   any of them, all of it
+                         "when": the same in words,
+                         "probability": per step in which the condition holds,
+                         "mean_wait": seconds,
+                         "effects": [internal states that are set for this step],
+                         "restarts": bool                      the behaviour begins afresh
+                         "rules": [numbers from 1]}]}}
+
+Reading such a document takes the rules; the state machine follows from them.
+"""
+
+from __future__ import annotations
+
+import json
+
+from geswarm.rules.as_json import SCHEMA, Json, rule_set_to_json
+from geswarm.rules.english import STEP_SECONDS
+from geswarm.rules.model import RuleSet
+from geswarm.rules.state_machine import StateMachine, Transition
+
+
+def format_json_document(rule_set: RuleSet) -> str:
+    """Rules and state machine as JSON text.
+
+    Raises:
+        RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+    """
+    document = {
+        "schema": SCHEMA,
+        **rule_set_to_json(rule_set),
+        "state_machine": machine_to_json(StateMachine.of(rule_set)),
+    }
+    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+
+
+def machine_to_json(machine: StateMachine) -> dict[str, Json]:
+    """A state machine as plain JSON values."""
+    return {
+        "step_seconds": STEP_SECONDS,
+        "states": [
+            {
+                "behaviour": state.behaviour,
+                "internal": dict(state.internal),
+                "initial": state.initial,
+            }
+            for state in machine.states
+        ],
+        "transitions": [_transition(entry) for entry in machine.transitions],
+    }
+
+
+def _transition(transition: Transition) -> dict[str, Json]:
+    return {
+        "source": transition.source,
+        "target": transition.target,
+        "condition": [dict(term) for term in transition.condition.terms],
+        "when": str(transition.condition),
+        "probability": transition.probability,
+        "mean_wait": transition.mean_wait,
+        "effects": list(transition.effects),
+        "restarts": transition.restarts,
+        "rules": list(transition.rules),
+    }

@@ -1,0 +1,44 @@
+"""A state machine as a Mermaid state diagram, as GitHub and many editors show it in Markdown."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
+from geswarm.rules.model import RuleSet
+from geswarm.rules.state_machine import StateMachine
+
+_MEANING = {character: f"#{ord(character)};" for character in '#;:<>&"'}
+
+
+def format_mermaid(rule_set: RuleSet) -> str:
+    """The state machine of a rule set as Mermaid text.
+
+    Raises:
+        RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+    """
+    return "\n".join(_lines(StateMachine.of(rule_set))) + "\n"
+
+
+def _lines(machine: StateMachine) -> Iterator[str]:
+    if machine.name:
+        yield from ("---", f"title: {json.dumps(machine.name, ensure_ascii=False)}", "---")
+    yield "stateDiagram-v2"
+    for at, state in enumerate(machine.states):
+        yield f'    state "{_text(state.label)}" as s{at}'
+    yield from (f"    [*] --> s{at}" for at, state in enumerate(machine.states) if state.initial)
+    for transition in machine.transitions:
+        parts = [str(transition.condition), transition.rate, *machine.effects(transition)]
+        label = "<br/>".join(map(_text, parts))
+        yield f"    s{transition.source} --> s{transition.target} : {label}"
+    for at, state in enumerate(machine.states):
+        code = machine.vocabulary.behaviour_index[state.behaviour]
+        colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
+        yield f"    classDef behaviour{at} stroke:{colour},stroke-width:3px"
+        yield f"    class s{at} behaviour{at}"
+
+
+def _text(text: str) -> str:
+    """Text without the characters that mean something to Mermaid."""
+    return "".join(_MEANING.get(character, character) for character in text)

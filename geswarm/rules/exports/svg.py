@@ -1,0 +1,160 @@
+"""A state machine as a picture (SVG), drawn without other programs.
+
+Every state is a group `.state` with `data-state`, every arrow a group `.arrow` with `data-source`,
+`data-target` and `data-transitions`, every transition of its label a group `.transition` with
+`data-transition` and `data-rules`: a page can light them up. Indices are those of the machine.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from xml.sax.saxutils import escape, quoteattr
+
+from geswarm.rules.exports.layout import (
+    LABEL_SIZE,
+    LINE_HEIGHT,
+    STATE_SIZE,
+    Arrow,
+    Box,
+    Layout,
+    Point,
+    lay_out,
+    text_width,
+)
+from geswarm.rules.model import RuleSet
+from geswarm.rules.state_machine import StateMachine
+
+BEHAVIOUR_COLOURS = ("#faa60a", "#1f63de", "#22b278", "#8c56c8", "#787878")
+"""Of each behaviour code, as in the arena; codes beyond begin again."""
+
+_TINTS = ("#fff3d9", "#e4ecfc", "#ddf5ea", "#efe6f8", "#ececec")
+_INK, _MUTED, _EFFECT, _PAPER = "#1d2733", "#5c6b7a", "#b3126f", "#ffffff"
+_HEADER, _FOOTER = 58.0, 34.0
+_FONT = "Inter, 'Helvetica Neue', Helvetica, Arial, 'DejaVu Sans', sans-serif"
+_LINE_STYLES = (
+    f'font-weight="600" fill="{_INK}"',
+    f'fill="{_MUTED}"',
+    f'font-weight="600" fill="{_EFFECT}"',
+)
+"""Of a transition's condition, its rate, and its effects."""
+_LEGEND = (
+    "p: probability per control step of 0.1 s, then the mean waiting time · R: the rules behind it"
+)
+
+
+def format_svg(rule_set: RuleSet) -> str:
+    """The state machine of a rule set as a picture.
+
+    Raises:
+        RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+    """
+    return machine_svg(StateMachine.of(rule_set))
+
+
+def machine_svg(machine: StateMachine) -> str:
+    """A standalone SVG document."""
+    layout = lay_out(machine)
+    title = machine.name or "State machine"
+    width = max(layout.width, text_width(_LEGEND, 12) + 48, text_width(title, 22) + 48)
+    height = layout.height + _HEADER + _FOOTER
+    shift = (width - layout.width) / 2
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
+        f'width="{width:.0f}" height="{height:.0f}" font-family={quoteattr(_FONT)} role="img">',
+        f"<title>{escape(title)}: state machine</title>",
+        f'<rect width="{width:.0f}" height="{height:.0f}" rx="14" fill="{_PAPER}"/>',
+        f'<text x="24" y="38" font-size="22" font-weight="700" fill="{_INK}">'
+        f"{escape(title)}</text>",
+        f'<g transform="translate({shift:.1f} {_HEADER:.0f})">',
+        *_arrows(machine, layout),
+        *_states(machine, layout),
+        "</g>",
+        f'<text x="24" y="{height - 16:.0f}" font-size="12" fill="{_MUTED}">{_LEGEND}</text>',
+        "</svg>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _colour(machine: StateMachine, state: int) -> tuple[str, str]:
+    """Strong and pale colour of a state's behaviour."""
+    code = machine.vocabulary.behaviour_index[machine.states[state].behaviour]
+    at = code % len(BEHAVIOUR_COLOURS)
+    return BEHAVIOUR_COLOURS[at], _TINTS[at]
+
+
+def _states(machine: StateMachine, layout: Layout) -> Iterator[str]:
+    for at, (state, box) in enumerate(zip(machine.states, layout.states, strict=True)):
+        strong, pale = _colour(machine, at)
+        yield f'<g class="state" data-state="{at}">'
+        if state.initial:
+            yield f"<title>{escape(state.label)}: robots start here</title>"
+            yield _rectangle(box.grown(5), "none", strong, 1.5, 33)
+        yield _rectangle(box, pale, strong, 3, 29)
+        yield (
+            f'<text x="{box.x:.1f}" y="{box.y + 5.5:.1f}" font-size="{STATE_SIZE}" '
+            f'font-weight="700" text-anchor="middle" fill="{_INK}">{escape(state.label)}</text></g>'
+        )
+
+
+def _rectangle(box: Box, fill: str, stroke: str, width: float, radius: float) -> str:
+    return (
+        f'<rect x="{box.x - box.width / 2:.1f}" y="{box.y - box.height / 2:.1f}" '
+        f'width="{box.width:.1f}" height="{box.height:.1f}" rx="{radius}" '
+        f'fill="{fill}" stroke="{stroke}" stroke-width="{width}"/>'
+    )
+
+
+def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
+    """All curves first, then all labels, so that no curve runs over a label."""
+    for arrow in layout.arrows:
+        strong, _ = _colour(machine, arrow.source)
+        indices = " ".join(map(str, arrow.transitions))
+        likeliest = max(machine.transitions[at].probability for at in arrow.transitions)
+        yield (
+            f'<g class="arrow" data-source="{arrow.source}" data-target="{arrow.target}" '
+            f'data-transitions="{indices}">'
+        )
+        yield (
+            f'<path d="{_path(arrow.path)}" fill="none" stroke="{strong}" '
+            f'stroke-width="{1.6 + 1.8 * math.sqrt(likeliest):.2f}" stroke-linecap="round"/>'
+        )
+        yield f'<path d="{_head(arrow.path)}" fill="{strong}"/></g>'
+    for arrow in layout.arrows:
+        yield from _label(machine, arrow)
+
+
+def _path(points: tuple[Point, ...]) -> str:
+    return "M" + " L".join(f"{x:.1f} {y:.1f}" for x, y in points[:-1])
+
+
+def _head(points: tuple[Point, ...]) -> str:
+    """A triangle at the end of a curve."""
+    (x, y), (before_x, before_y) = points[-1], points[max(0, len(points) - 3)]
+    angle = math.atan2(y - before_y, x - before_x)
+    corners = [(x + 5 * math.cos(angle), y + 5 * math.sin(angle))]
+    for side in (-1, 1):
+        back = angle + math.pi + side * 0.42
+        corners.append((x + 11 * math.cos(back), y + 11 * math.sin(back)))
+    return "M" + " L".join(f"{cx:.1f} {cy:.1f}" for cx, cy in corners) + " Z"
+
+
+def _label(machine: StateMachine, arrow: Arrow) -> Iterator[str]:
+    box = arrow.label
+    yield _rectangle(box, _PAPER, "none", 0, 6)
+    bar = Box(box.x - box.width / 2, box.y, 3, box.height - 4)
+    yield _rectangle(bar, _colour(machine, arrow.source)[0], "none", 0, 1.5)
+    y = box.y - box.height / 2 + 4
+    for at, rows in zip(arrow.transitions, arrow.lines, strict=True):
+        transition = machine.transitions[at]
+        rules = " ".join(map(str, transition.rules))
+        yield f'<g class="transition" data-transition="{at}" data-rules="{rules}">'
+        yield f"<title>{escape(machine.describe(transition))}</title>"
+        for number, row in enumerate(rows):
+            y += LINE_HEIGHT
+            yield (
+                f'<text x="{box.x - box.width / 2 + 10:.1f}" y="{y - 4:.1f}" '
+                f'font-size="{LABEL_SIZE}" {_LINE_STYLES[min(number, 2)]}>{escape(row)}</text>'
+            )
+        yield "</g>"
+        y += 5

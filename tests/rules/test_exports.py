@@ -1,0 +1,393 @@
+import json
+import random
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geswarm.app import palette
+from geswarm.rules import (
+    BehaviourChange,
+    Rule,
+    RuleSet,
+    RuleSetError,
+    StateMachine,
+    load_preset,
+    parse_json,
+    parse_text,
+    read_rule_set,
+    save_rule_set,
+)
+from geswarm.rules.as_json import format_json, rule_from_json
+from geswarm.rules.exports import (
+    EXPORTS,
+    format_argos_experiment,
+    format_floor,
+    format_latex,
+    format_markdown,
+    machine_svg,
+    to_automode,
+)
+from geswarm.rules.exports.automode import _drawn_in_random_order
+from geswarm.rules.exports.layout import lay_out
+from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
+from geswarm.sim import load_scenario
+from tests import strategies
+
+EVO8, HAND_CODED = load_preset("evo8"), load_preset("hand-coded")
+NASTY = RuleSet(
+    (Rule(actions=(BehaviourChange(0.5, "PHOTOTAXIS"),), comment="5 % $x_1$ & <b>| {\\end} `q`"),),
+    name='</svg>"--]] # ;:',
+    comment="\"a\"\nb|c 中 é",
+)  # fmt: skip
+
+
+@given(strategies.documented_rule_sets)
+def test_what_carries_enough_comes_back(rule_set):
+    for form in ("yaml", "text", "json"):
+        assert read_rule_set(EXPORTS[form](rule_set)) == rule_set
+    assert parse_json(format_json(rule_set)) == rule_set
+
+
+def test_json_files_are_saved_and_read_like_the_others(tmp_path):
+    path = tmp_path / "mine.json"
+    save_rule_set(EVO8, path)
+    assert json.loads(path.read_text())["schema"] == 1
+    assert read_rule_set(path.read_text(), str(path)) == EVO8
+
+
+@pytest.mark.parametrize(
+    ("text", "messages"),
+    [
+        (
+            "{",
+            [":1: not valid JSON: Expecting property name enclosed in double quotes at column 2"],
+        ),
+        ("[" * 100_000, [": not valid JSON: it is nested too deeply or a number is too long"]),
+        ("[]", [": expected a rule set, got []"]),
+        ("{}", [': expected "rules" with a list of rules']),
+        (
+            '{"schema": 2, "rules": 5}',
+            [": expected schema 1, got 2", ": rules: expected a list, got 5"],
+        ),
+        (
+            '{"rules": [3, {"comment": 1}]}',
+            [": rule 1: expected a rule, got 3", ": rule 2: comment: got 1"],
+        ),
+        (
+            '{"rules": [{"actions": [{"p": "a", "behaviour": "X"}, 4], "behaviours": [1]}]}',
+            [
+                ": rule 1, behaviour 1: expected the name of a behaviour, got 1",
+                ": rule 1, action 1: p: got 'a'",
+                ": rule 1, action 2: expected an action, got 4",
+            ],
+        ),
+        (
+            '{"rules": [{"actions": [{"p": 2, "behaviour": "FOTOTAXIS"}]}]}',
+            [
+                ": rule 1, action 1: unknown behaviour 'FOTOTAXIS'; did you mean PHOTOTAXIS?",
+                ": rule 1, action 1: probability must be between 0 and 1, got 2.0",
+            ],
+        ),
+        (
+            '{"rules": [], "origin": {"fitness": NaN}}',
+            [": fitness: expected a finite number, got nan"],
+        ),
+        ('{"rules": [], "origin": 3}', [": origin: expected an object, got 3"]),
+    ],
+)
+def test_wrong_json_is_explained(text, messages):
+    with pytest.raises(RuleSetError) as caught:
+        read_rule_set(text, "x.json")
+    assert [str(finding) for finding in caught.value.findings] == [f"x.json{m}" for m in messages]
+
+
+def test_json_holds_the_state_machine():
+    document = json.loads(EXPORTS["json"](HAND_CODED))
+    assert [rule_from_json(rule) for rule in document["rules"]] == list(HAND_CODED.rules)
+    machine = document["state_machine"]
+    assert machine["step_seconds"] == 0.1
+    assert machine["states"][2] == {"behaviour": "RANDOM_WALK", "internal": {}, "initial": True}
+    assert machine["transitions"][2] == {
+        "source": 0,
+        "target": 2,
+        "condition": [{"ON_NEST": True, "HAS_OBJECT": True}],
+        "when": "ON_NEST and HAS_OBJECT",
+        "probability": 1.0,
+        "mean_wait": 0.1,
+        "effects": ["DROP_OBJECT"],
+        "restarts": False,
+        "rules": [3, 4],
+    }
+
+
+def test_mermaid():
+    lines = EXPORTS["mermaid"](HAND_CODED).splitlines()
+    assert lines[:9] == [
+        "---",
+        'title: "Hand-coded"',
+        "---",
+        "stateDiagram-v2",
+        '    state "PHOTOTAXIS" as s0',
+        '    state "ANTI-PHOTOTAXIS" as s1',
+        '    state "RANDOM_WALK" as s2',
+        "    [*] --> s2",
+        "    s0 --> s1 : HAS_OBJECT and not ON_NEST<br/>p = 1, at once",
+    ]
+
+
+def test_dot():
+    lines = EXPORTS["dot"](HAND_CODED).splitlines()
+    assert lines[0] == "digraph rule_set {"
+    assert '  s2 [label="RANDOM_WALK", color="#22b278", peripheries=2];' in lines
+    edge = r'  s1 -> s2 [label="ON_NEST\np = 1, at once\ndrop the object", color="#1f63de"];'
+    assert edge in lines
+    assert r'label="a\\\"b"' in EXPORTS["dot"](RuleSet(name='a\\"b'))
+
+
+@pytest.mark.skipif(not shutil.which("dot"), reason="Graphviz is not installed")
+def test_graphviz_draws_it():
+    subprocess.run(["dot", "-Tsvg"], input=EXPORTS["dot"](NASTY), text=True, check=True)
+
+
+@given(strategies.plain_rule_sets())
+def test_no_label_covers_a_state_or_another_label(rule_set):
+    machine = StateMachine.of(rule_set)
+    layout = lay_out(machine)
+    boxes = [arrow.label for arrow in layout.arrows] + list(layout.states)
+    if len(machine.states) <= 3:
+        for at, one in enumerate(boxes):
+            for other in boxes[:at]:
+                assert min(one.overlap(other)) <= 0
+    for box in boxes:
+        assert 0 <= box.x - box.width / 2 <= box.x + box.width / 2 <= layout.width
+        assert 0 <= box.y - box.height / 2 <= box.y + box.height / 2 <= layout.height
+    drawn = [at for arrow in layout.arrows for at in arrow.transitions]
+    assert sorted(drawn) == list(range(len(machine.transitions)))
+
+
+def test_the_picture_says_what_the_machine_says():
+    machine = StateMachine.of(EVO8)
+    root = ElementTree.fromstring(machine_svg(machine))
+    space = {"s": "http://www.w3.org/2000/svg"}
+    states = root.findall(".//s:g[@class='state']/s:text", space)
+    assert [state.text for state in states] == [state.label for state in machine.states]
+    groups = root.findall(".//s:g[@class='transition']", space)
+    shown = {int(group.get("data-transition")): group for group in groups}
+    assert sorted(shown) == list(range(len(machine.transitions)))
+    for at, transition in enumerate(machine.transitions):
+        rows = [row.text for row in shown[at].findall("s:text", space)]
+        rules = " ".join(f"R{number}" for number in transition.rules)
+        assert rows[:2] == [str(transition.condition), f"{transition.rate} · {rules}"]
+        assert rows[2:] == list(machine.effects(transition))
+    assert machine._repr_svg_() == EXPORTS["svg"](EVO8)
+
+
+def test_text_in_the_picture_is_escaped():
+    root = ElementTree.fromstring(EXPORTS["svg"](NASTY))
+    titles = [entry.text for entry in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert NASTY.name in titles
+
+
+def test_behaviours_have_the_colours_of_the_arena():
+    assert tuple(map(palette.css, palette.BEHAVIOURS)) == BEHAVIOUR_COLOURS
+
+
+def test_latex_has_the_form_of_the_papers_tables():
+    text = format_latex(EVO8)
+    rows = [re.sub(r"\s+", " ", line.strip()) for line in text.splitlines()]
+    at = rows.index(
+        r"$\mathcal{B}_{2}$ & $B_{\mathit{RANDOM\_WALK}}$ & "
+        r"$B_{\mathit{ANTI{-}PHOTOTAXIS}}$ & \\"
+    )
+    assert rows[at - 1] == r"$\mathcal{P}_{2}$ & $P_{\mathit{ON\_NEST}} == \mathit{true}$ & & \\"
+    assert rows[at + 1 : at + 4] == [
+        r"$\mathcal{A}_{2}$ & $A_B$ & $p = 1$ & $B \leftarrow B_{\mathit{PHOTOTAXIS}}$ \\",
+        r"& $A_{IS}$ & $p = 1$ & $IS_{\mathit{DROP\_OBJECT}} \leftarrow \mathit{true}$ \\",
+        r"\hline",
+    ]
+    assert r"$\mathcal{P}_{1}$ & $\varepsilon$ & & \\" in rows
+
+
+@given(strategies.documented_rule_sets)
+def test_latex_stays_in_balance_whatever_the_comments(rule_set):
+    text = format_latex(rule_set)
+    plain = re.sub(r"\\[\\{}$&#%_]", "", text)
+    depth = 0
+    for character in plain:
+        depth += (character == "{") - (character == "}")
+        assert depth >= 0
+    assert depth == 0
+    assert plain.count("$") % 2 == 0
+    assert "%" not in plain
+    assert "#" not in plain
+    commands = set(re.findall(r"\\([a-zA-Z]+)", plain))
+    assert commands <= LATEX_COMMANDS, commands - LATEX_COMMANDS
+    rows = [line for line in plain.split(r"\begin{tabular}")[1].splitlines() if " & " in line]
+    assert all(row.count("&") in (1, 3) for row in rows)
+
+
+LATEX_COMMANDS = set(re.findall(r"\w+", """
+    documentclass usepackage begin end centering hline multicolumn textwidth raggedright textit
+    mathcal mathit varepsilon leftarrow cdot caption quad ifdefined fi DeclareUnicodeCharacter
+    texttt textbackslash textasciitilde textasciicircum textless textgreater textbar
+    textquotedbl textasciigrave
+"""))  # fmt: skip
+
+
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="pdflatex is not installed")
+@pytest.mark.parametrize("rule_set", [EVO8, HAND_CODED, NASTY, RuleSet()])
+def test_latex_compiles(rule_set, tmp_path):
+    (tmp_path / "table.tex").write_text(format_latex(rule_set), encoding="utf-8")
+    command = ["pdflatex", "-halt-on-error", "-interaction=nonstopmode", "table.tex"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+
+
+def test_markdown():
+    lines = format_markdown(EVO8).splitlines()
+    assert lines[4:7] == [
+        "| | Preconditions | Behaviours | Actions | Comment |",
+        "| --- | --- | --- | --- | --- |",
+        "| R1 | ε | `PHOTOTAXIS` | `p = 0.05, RANDOM_WALK` | The switch to random walk for object "
+        "exploration is probabilistic and can happen any time |",
+    ]
+
+
+@given(strategies.documented_rule_sets)
+def test_markdown_rows_stay_rows(rule_set):
+    lines = format_markdown(rule_set).splitlines()
+    first = lines.index("| --- | --- | --- | --- | --- |") + 1
+    assert len(lines) - first == len(rule_set.rules)
+    for line in lines[first:]:
+        assert len(re.findall(r"(?<!\\)(?:\\\\)*\|", line)) == 6
+
+
+def test_english():
+    assert EXPORTS["english"](HAND_CODED).splitlines()[3] == (
+        "R1. When away from the source and not holding an object, go to the light."
+    )
+
+
+class Texts(HTMLParser):
+    def __init__(self, html):
+        super().__init__()
+        self.tags, self.text = set(), ""
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+
+    def handle_data(self, data):
+        self.text += data
+
+
+@given(strategies.documented_rule_sets)
+def test_notebooks_show_rule_sets_with_every_text_escaped(rule_set):
+    shown = Texts(rule_set._repr_html_())
+    assert shown.tags <= {"table", "caption", "tbody", "tr", "th", "td", "br"}
+    for rule in rule_set.rules:
+        assert rule.comment.replace("\n", "") in shown.text
+
+
+def test_automode_command_lines():
+    assert to_automode(EVO8).command == (
+        "--fsm-config --nstates 3 --s0 0 --rwm0 50 --n0 1 --n0x0 0 --c0x0 2 --p0x0 1 "
+        "--s1 2 --n1 2 --n1x0 0 --c1x0 0 --p1x0 0.05 --n1x1 0 --c1x1 1 --p1x1 0.05 "
+        "--s2 3 --n2 1 --n2x0 1 --c2x0 2 --p2x0 1"
+    )
+    simple = parse_text(
+        "rule if ON_SOURCE == true while RANDOM_WALK do p = 0.5, ANTI-PHOTOTAXIS "
+        "rule if ON_NEST == true while ANTI-PHOTOTAXIS do p = 0.25, PHOTOTAXIS "
+        "rule while PHOTOTAXIS do p = 0.1, RANDOM_WALK"
+    )
+    assert to_automode(simple).command == (
+        "--fsm-config --nstates 3 --s0 0 --rwm0 50 --n0 1 --n0x0 1 --c0x0 0 --p0x0 0.5 "
+        "--s1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1 "
+        "--s2 3 --n2 2 --n2x0 0 --c2x0 2 --p2x0 0.0282202 --n2x1 1 --c2x1 2 --p2x1 0.22822"
+    )
+    assert to_automode(simple).warnings == ()
+
+
+def test_automode_says_what_it_leaves_out():
+    warnings = to_automode(EVO8).warnings
+    assert len(warnings) == len(StateMachine.of(EVO8).transitions)
+    wanting = parse_text("rule if ON_NEST == true do p = 0.1, WANT_OBJECT = false")
+    assert any("WANT_OBJECT" in warning for warning in to_automode(wanting).warnings)
+    loops = parse_text("rule do p = 0.1, PHOTOTAXIS rule do p = 0.1, RANDOM_WALK")
+    assert any("self-loop" in warning for warning in to_automode(loops).warnings)
+    floors = parse_text("rule if ON_NEST == true do p = 0.1, PHOTOTAXIS")
+    assert to_automode(floors).warnings == ()
+
+
+@given(st.floats(0.001, 1), st.floats(0.001, 1))
+def test_two_conditions_drawn_in_random_order_come_to_the_wanted_probabilities(a, b):
+    if a + b > 1:
+        a, b = a / (a + b), b / (a + b)
+    drawn = _drawn_in_random_order({0: a, 1: b})
+    assert all(0 <= p <= 1 for p in drawn.values())
+    assert drawn[0] * (1 - drawn[1] / 2) == pytest.approx(a, abs=1e-9)
+    assert drawn[1] * (1 - drawn[0] / 2) == pytest.approx(b, abs=1e-9)
+
+
+@given(strategies.plain_rule_sets(), st.randoms())
+def test_automode_reads_its_command_line_as_meant(rule_set, rng):
+    """Parsed as AutoMoDe does: the words of each state, then of each of its transitions."""
+    words = to_automode(rule_set).command.split()
+    options = dict(zip(words[1::2], words[2::2], strict=True))
+    assert words[0] == "--fsm-config"
+    assert len(options) == (len(words) - 1) / 2
+    count = int(options["--nstates"])
+    machine = StateMachine.of(rule_set)
+    assert count == len(machine.states)
+    assert options["--s0"] == "0"
+    for state in range(count):
+        assert options[f"--s{state}"] in ("0", "2", "3")
+        for at in range(int(options.get(f"--n{state}", 0))):
+            assert 0 <= int(options[f"--n{state}x{at}"]) < count - 1
+            assert options[f"--c{state}x{at}"] in ("0", "1", "2", "5")
+            assert 0 <= float(options[f"--p{state}x{at}"]) <= 1
+
+
+def test_argos_experiment():
+    scenario = load_scenario("flexibility-5")
+    root = ElementTree.fromstring(format_argos_experiment(scenario, "a&b.lua", "floor.ppm"))
+    assert root.find("framework/experiment").attrib["length"] == "5000"
+    assert root.find(".//lua_controller/params").get("script") == "a&b.lua"
+    assert root.find(".//distribute/entity").get("quantity") == "5"
+    assert root.find(".//foot-bot").get("rab_range") == "0.5"
+    inner = {box.get("id"): box.find("body").get("position").split(",") for box in root.iter("box")}
+    assert float(inner["wall_east"][0]) - 0.05 == pytest.approx(scenario.width / 2)
+    assert float(inner["wall_north"][1]) - 0.05 == pytest.approx(scenario.length / 2)
+    x, y, height = map(float, root.find(".//light").get("position").split(","))
+    assert (x, y) == (0, pytest.approx(scenario.length / 2 + scenario.light))
+    assert height / (scenario.light + scenario.length) > 0.147 / 0.085  # over robots that touch
+    south_west, north_east = (
+        [float(value) for value in root.find(".//distribute/position").get(end).split(",")]
+        for end in ("min", "max")
+    )
+    assert south_west[1] == pytest.approx(-scenario.length / 2 + 0.085)
+    assert north_east[1] == pytest.approx(-scenario.length / 2 + scenario.nest)
+
+
+def test_argos_floor_has_the_zones_of_the_scenario():
+    scenario = load_scenario("paper")
+    kind, size, deepest, *pixels = format_floor(scenario).splitlines()
+    rows = int(size.split()[1])
+    assert (kind, size, deepest) == ("P3", "1 440", "255")
+    assert len(pixels) == rows == 440
+
+    def shade(y):
+        """As ARGoS looks it up: the picture covers the arena with its walls, north is up."""
+        from_south = (y + 2.2) / 4.4 * rows
+        return pixels[rows - 1 - int(from_south)].split()[0]
+
+    rng = random.Random(1)
+    for _ in range(200):
+        y = rng.uniform(-2.1, 2.1)
+        if min(abs(y + 0.6), abs(y - 0.1)) > 0.01:
+            assert shade(y) == ("255" if y < -0.6 else "0" if y > 0.1 else "128")

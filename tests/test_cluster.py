@@ -1,0 +1,117 @@
+"""Evaluation by any executor: the same history, whoever does the work and whoever dies."""
+
+import os
+import signal
+import threading
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+
+import pytest
+
+from geswarm.app.main import main
+from geswarm.cluster import ClusterError, cluster_executor
+from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
+from geswarm.fitness import Composition, simulate_share
+from geswarm.ge import Settings
+from geswarm.sim import Simulation, load_scenario
+
+QUICK = load_scenario("paper").with_changes(duration=2000.0)
+CONFIG = RunConfig(QUICK, Settings.preset("modern", population=20, generations=3), seed=5)
+
+
+def rows(directory):
+    lines = (directory / "history.csv").read_text().splitlines()
+    return [line.rpartition(",")[0] for line in lines]
+
+
+def evolved(directory, config=CONFIG, **options):
+    run = EvolutionRun.create(config, directory)
+    try:
+        run.run(**options)
+    finally:
+        run.close()
+    return rows(directory)
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    return evolved(tmp_path_factory.mktemp("threads") / "run", workers=2)
+
+
+def test_threads_of_an_executor(tmp_path, expected):
+    with ThreadPoolExecutor(3) as executor:
+        assert evolved(tmp_path / "run", executor=executor) == expected
+
+
+@pytest.mark.slow
+def test_processes(tmp_path, expected):
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
+        assert evolved(tmp_path / "run", executor=executor) == expected
+
+
+def test_an_executor_that_fails_loses_only_the_generation(tmp_path, expected):
+    executor = ThreadPoolExecutor(2)
+    run = EvolutionRun.create(CONFIG, tmp_path / "run")
+    with pytest.raises(EvaluationError, match="could not be run: RuntimeError: cannot schedule"):
+        run.run(on_generation=lambda _: executor.shutdown(), executor=executor)
+    assert len(run.history) == 1
+    run.close()
+    again = EvolutionRun.resume(tmp_path / "run")
+    again.run(workers=2)
+    again.close()
+    assert rows(tmp_path / "run") == expected
+
+
+def test_stop_while_an_executor_works(tmp_path):
+    stop = threading.Event()
+    with ThreadPoolExecutor(1) as executor:
+        run = EvolutionRun.create(CONFIG, tmp_path / "run")
+        executor.submit(stop.set)
+        run.run(stop=stop.is_set, executor=executor)
+        assert not run.finished
+        run.close()
+
+
+def test_another_version_is_refused():
+    with pytest.raises(RuntimeError, match=r"expected GESwarm 0\.0\.0 on every worker"):
+        simulate_share("0.0.0", QUICK, Composition(), ["rule"], [Simulation(0, 0)])
+
+
+def test_no_scheduler_or_no_dask_is_one_clear_message(capsys, monkeypatch):
+    monkeypatch.setattr("geswarm.cluster._PATIENCE", 0.2)
+    assert main(["--no-ui", "--cluster", "tcp://127.0.0.1:9", "--out", "nowhere"]) == 2
+    error = capsys.readouterr().err
+    assert "tcp://127.0.0.1:9: expected a Dask scheduler" in error or "pip install" in error
+    assert "Traceback" not in error
+
+    def missing(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr("geswarm.cluster.import_module", missing)
+    with pytest.raises(ClusterError, match="pip install 'geswarm"), cluster_executor("tcp://x"):
+        pass
+
+
+@pytest.mark.slow
+def test_a_dask_worker_that_is_killed_loses_nothing(tmp_path):
+    distributed = pytest.importorskip("distributed", reason="needs the extra: geswarm[cluster]")
+    config = RunConfig(
+        load_scenario("paper").with_changes(robots=20),
+        Settings.preset("modern", population=30, generations=3),
+        seed=6,
+    )
+    whole = evolved(tmp_path / "threads", config, workers=2)
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    )
+    with cluster, cluster_executor(cluster.scheduler_address) as executor:
+        victim = next(iter(cluster.workers.values())).pid
+
+        def kill(record):
+            if record.generation == 1:  # in the middle of generation 2
+                timer = threading.Timer(0.15, os.kill, (victim, signal.SIGKILL))
+                timer.start()
+
+        assert evolved(tmp_path / "dask", config, executor=executor, on_generation=kill) == whole
+        with pytest.raises(ProcessLookupError):
+            os.kill(victim, 0)
