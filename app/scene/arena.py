@@ -12,9 +12,12 @@ import viser
 from .. import palette
 from ..palette import Colour
 from ..state.view import ArenaView, Kind
-from .footbot import footbot, puck, yaw_quaternions
+from .footbot import distant_footbot, footbot, puck, yaw_quaternions
 from .scenery import ArenaShape, draw_scenery
 from .shapes import Mesh
+
+MOST_IN_DETAIL = 1000
+"""Robots that are drawn with all their parts; larger swarms are drawn from simpler ones."""
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)
@@ -137,7 +140,7 @@ class Arena:
             handles.objects.batched_positions = positions
 
     def _new_robots(self, count: int) -> RobotHandles:
-        look = footbot()
+        look = footbot() if count <= MOST_IN_DETAIL else distant_footbot()
         robots = RobotHandles(
             shadows=self._batch("shadows", look.shadow, count, (10, 12, 18), opacity=0.4),
             glows=self._batch("glows", look.glow, count, _TRIM, opacity=0.13),

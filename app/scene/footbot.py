@@ -64,6 +64,25 @@ def footbot() -> FootBot:
     )
 
 
+def distant_footbot() -> FootBot:
+    """A foot-bot in about a tenth of the triangles, for swarms too large to look at one robot."""
+    ring = (
+        (RADIUS, _RING_LOW),
+        (RADIUS, _RING_HIGH),
+        (_RING_INSIDE, _RING_HIGH),
+    )
+    top = HEIGHT + OBJECT_HEIGHT
+    arrow = ((-0.030, 0.0), (-0.050, -0.045), (0.065, 0.0), (-0.050, 0.045))
+    return FootBot(
+        body=lathe(((0.078, 0.0), (0.078, _RING_LOW)), 6),
+        trim=merged((lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 8), prism(arrow, 0.084, HEIGHT))),
+        leds=lathe(ring, 8),
+        shadow=lathe(((1.15 * RADIUS, 0.0078), (0.0, 0.0078)), 6),
+        glow=lathe(((1.7 * RADIUS, 0.0062), (0.0, 0.0062)), 6),
+        carried=lathe(((OBJECT_RADIUS, HEIGHT), (OBJECT_RADIUS, top), (0.0, top)), 5),
+    )
+
+
 def puck() -> Mesh:
     """An object that stands on the ground: a small cylinder with a bevelled edge."""
     r, h, bevel = OBJECT_RADIUS, OBJECT_HEIGHT, 0.008

@@ -186,6 +186,7 @@ class Group:
         self.objects = np.zeros(scenario.objects, dtype=OBJECT_LANES)
         self.counts = np.zeros(1, dtype=GROUP)[0]
         self.counts["table"][: self.width] = filled[:, 0] * words.words[0].size
+        self.counts["slot_bits"][: self.width] = words.slot_bits[filled[:, 0]]
         self._words = words
         physics = encode_scenario(scenario)
         self._physics = in_single_precision(physics)
@@ -195,14 +196,13 @@ class Group:
     def run(self, first: int, steps: int) -> None:
         """Run control steps first..first+steps-1."""
         words = self._words.words.reshape(-1)
-        slot_bits = self._words.slot_bits
         run_lanes(
             self._physics,
             self.robots,
             self.objects,
             self.counts,
             words,
-            slot_bits,
+            self._words.row_bits,
             self.width,
             first,
             steps,
@@ -228,9 +228,9 @@ def _run_one_by_one(
     room = room_for(scenario)
     for (table, *key), tally in zip(simulations.tolist(), tallies, strict=True):
         start_world(physics, *room[:4], *key)
-        of_table = words.words[table]
+        of_table, slot_bits = words.words[table], int(words.slot_bits[table])
         for first, steps in _segments(scenario, 1, stop):
-            run_simulation(physics, *room, tally, of_table, words.slot_bits, first, steps)
+            run_simulation(physics, *room, tally, of_table, slot_bits, first, steps)
 
 
 def _segments(scenario: Scenario, lanes: int, stop: Stop | None) -> Iterator[tuple[int, int]]:

@@ -107,12 +107,19 @@ class Words:
     """Control tables as the kernels draw from them, see `geswarm.sim.kernels.table`.
 
     Attributes:
-        words: uint32, shape (tables, situations, slots).
-        slot_bits: Logarithm of the number of slots.
+        words: uint32, shape (tables, situations, slots); a table may use fewer slots than there
+            are.
+        slot_bits: Logarithm of the number of slots that a table uses, uint32, shape (tables,). It
+            depends on nothing but the table, or results would depend on what else is evaluated.
     """
 
     words: npt.NDArray[np.uint32]
-    slot_bits: int
+    slot_bits: npt.NDArray[np.uint32]
+
+    @property
+    def row_bits(self) -> int:
+        """Logarithm of the number of words from one situation to the next."""
+        return int(self.words.shape[2].bit_length() - 1)
 
 
 def encode_tables(tables: Sequence[ControlTable], zone_miss: float) -> Words:
@@ -136,12 +143,15 @@ def encode_tables(tables: Sequence[ControlTable], zone_miss: float) -> Words:
     by_memory = np.zeros((len(tables), 4, 2, BEHAVIOURS + 1, 2, outcomes))
     by_memory[:, :, :, :BEHAVIOURS] = mixed.swapaxes(1, 2)
     by_memory[:, :, :, BEHAVIOURS, :, 0] = 1.0  # there is no such behaviour
-    rows = by_memory.reshape(-1, outcomes)
-    slot_bits = int(np.count_nonzero(rows, axis=1).max() - 1).bit_length()
-    slots = 1 << slot_bits
-    words = np.empty((len(rows), slots), dtype=np.uint32)
-    fill_slots(rows, words, np.empty(slots), np.empty(slots, dtype=np.uint32))
-    return Words(words.reshape(len(tables), 4 * MEMORIES, -1), slot_bits)
+    rows = by_memory.reshape(len(tables), 4 * MEMORIES, outcomes)
+    most = np.count_nonzero(rows, axis=2).max(axis=1)
+    slot_bits = np.array([int(number - 1).bit_length() for number in most], dtype=np.uint32)
+    words = np.zeros((*rows.shape[:2], 1 << int(slot_bits.max())), dtype=np.uint32)
+    for of_table, table_words, bits in zip(rows, words, slot_bits, strict=True):
+        slots = 1 << int(bits)
+        room = np.empty(slots), np.empty(slots, dtype=np.uint32)
+        fill_slots(of_table, table_words[:, :slots], *room)
+    return Words(words, slot_bits)
 
 
 def encode_rules(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> tuple[Records, Records]:

@@ -10,6 +10,7 @@ from geswarm.app.scene.footbot import (
     OBJECT_HEIGHT,
     OBJECT_RADIUS,
     RADIUS,
+    distant_footbot,
     footbot,
     puck,
     yaw_quaternions,
@@ -21,6 +22,7 @@ PARTS = vars(footbot())
 WORDS = ["NEST", "SOURCE", "1 m"]
 MESHES = {
     **PARTS,
+    **{f"distant {name}": mesh for name, mesh in vars(distant_footbot()).items()},
     "puck": puck(),
     **{word: painted(word, 0.3) for word in WORDS},
     "line": line(((0, 0), (1, 0), (1, 0), (1, 1)), 0.1),
@@ -85,6 +87,13 @@ def test_front_is_east():
 
 def test_carried_object_stands_on_top():
     assert PARTS["carried"].vertices[:, 2].min() == pytest.approx(HEIGHT)
+
+
+def test_large_swarms_are_cheap_and_look_alike_from_afar():
+    near, far = vars(footbot()), vars(distant_footbot())
+    assert sum(len(mesh.faces) for mesh in far.values()) < 100
+    for name in ("leds", "carried"):
+        assert far[name].vertices[:, 2].max() == pytest.approx(near[name].vertices[:, 2].max())
 
 
 def test_two_thousand_robots_remain_cheap():

@@ -110,7 +110,7 @@ def test_killed_at_random_moments_it_ends_the_same(tmp_path, preset, kills):
     scenario = tmp_path / "quick.yaml"
     scenario.write_text("extends: paper\nduration: 500\n")
     common = [*SMALL, "--scenario", str(scenario), "--preset", preset]
-    common += ["--generations", str(50 * kills), "--out"]
+    common += ["--generations", str(20 * kills), "--out"]
     assert main([*common, str(tmp_path / "whole")]) == 0
     part = tmp_path / "part"
     assert killed_again_and_again([*common, str(part)], part, kills, seed=kills) >= 0.8 * kills

@@ -6,7 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from geswarm.rules import FORAGING, ControlTable, RuleSet, Vocabulary, load_preset
+from geswarm.rules import (
+    FORAGING,
+    ControlTable,
+    RuleSet,
+    Vocabulary,
+    load_preset,
+    parse_text,
+)
 from geswarm.sim import batch
 from geswarm.sim.batch import EvaluationStopped, Simulation, evaluate, runs_side_by_side
 from geswarm.sim.scenario import load_scenario
@@ -149,3 +156,27 @@ def test_stop_ends_a_long_simulation(robots):
     scenario = SHORT.with_changes(robots=robots, width=20.0, duration=1e7)
     with pytest.raises(EvaluationStopped):
         evaluate(TABLES, scenario, SIMULATIONS[:1], workers=1, stop=lambda: next(asked))
+
+
+def test_a_result_does_not_depend_on_what_else_is_evaluated():
+    """Tables with few outcomes beside tables with many: each draws as if it were alone."""
+    scenario = load_scenario("paper").with_changes(duration=300.0)
+    many = parse_text(
+        "rule do p = 0.1, PHOTOTAXIS do p = 0.1, RANDOM_WALK do p = 0.1, ANTI-PHOTOTAXIS "
+        "do p = 0.5, DROP_OBJECT = true do p = 0.1, WANT_OBJECT = false "
+        "do p = 0.1, WANT_OBJECT = true"
+    )
+    sets = [
+        load_preset("hand-coded"),
+        load_preset("evo8"),
+        many,
+        parse_text("rule do p = 1, PHOTOTAXIS"),
+    ]
+    tables = [ControlTable.compile(rule_set) for rule_set in sets]
+    simulations = [(table, 3, 0, run) for table in range(len(tables)) for run in range(9)]
+    together = evaluate(tables, scenario, simulations)
+    for number, table in enumerate(tables):
+        alone = evaluate([table], scenario, [(0, 3, 0, run) for run in range(9)])
+        share = slice(9 * number, 9 * number + 9)
+        assert alone.collected.tolist() == together.collected[share].tolist()
+        assert alone.picked.tolist() == together.picked[share].tolist()

@@ -79,7 +79,7 @@ def table_twin(scenario, rule_set, key):
     """The oracle drawing from the control table, and the table."""
     words = encode_tables([ControlTable.compile(rule_set)], scenario.zone_miss)
     twin = oracle.Oracle(scenario.with_changes(zone_miss=0.0), *key)  # the table misses zones
-    return twin, oracle.by_table(words.words[0], words.slot_bits), words
+    return twin, oracle.by_table(words.words[0], int(words.slot_bits[0])), words
 
 
 def run_batch_and_oracle(scenario, rule_set, key):

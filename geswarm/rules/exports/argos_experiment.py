@@ -85,8 +85,8 @@ def _lines(scenario: ArgosScenario, script: str, floor: str, seed: int) -> Itera
     yield '<?xml version="1.0" ?>'
     yield "<!-- Run in this directory: argos3 -c followed by the name of this file. -->"
     yield "<argos-configuration>"
-    yield "  <!-- Objects are virtual: loop functions of your own, named here, set HAS_OBJECT and read"
-    yield "       WANT_OBJECT and DROP_OBJECT of every robot's script. -->"
+    yield "  <!-- Objects are virtual: loop functions of your own, named here, set HAS_OBJECT"
+    yield "       and read WANT_OBJECT and DROP_OBJECT of every robot's script. -->"
     yield "  <framework>"
     yield '    <system threads="0" />'
     yield (

@@ -69,7 +69,7 @@ def build_run_lanes(version: int) -> Any:
         objects: Any,
         group: Any,
         words: Any,
-        slot_bits: int,
+        row_bits: int,
         width: int,
         first: int,
         steps: int,
@@ -82,7 +82,7 @@ def build_run_lanes(version: int) -> Any:
             objects: Of OBJECT_LANES, shape (objects,).
             group: Of GROUP.
             words: Control tables, see `table`, uint32, flat.
-            slot_bits: Logarithm of the number of slots per situation.
+            row_bits: Logarithm of the number of words per situation.
             width: Multiple of 16.
             first: Control step to begin with.
             steps: How many.
@@ -91,7 +91,7 @@ def build_run_lanes(version: int) -> Any:
             _avoid_robots(physics, robots, group, width)
             for i in range(len(robots)):
                 robot = robots[i]
-                _decide(physics, robot, group, words, slot_bits, width, step)
+                _decide(physics, robot, group, words, row_bits, width, step)
                 _restart_walks(physics, robot, width, step)
                 _take_objects(physics, robot, objects, group, width, step)
                 _move(physics, robot, width)
@@ -134,7 +134,7 @@ def _avoid_robots(physics: Physics, robots: Any, group: Any, width: int) -> None
 
 @inlined
 def _decide(
-    physics: Physics, robot: Any, group: Any, words: Any, slot_bits: int, width: int, step: int
+    physics: Physics, robot: Any, group: Any, words: Any, row_bits: int, width: int, step: int
 ) -> None:
     """Sense, draw the outcome, drop; which robots restart their walk and which want an object."""
     now = I(step)
@@ -143,13 +143,13 @@ def _decide(
         zones = U(ON_NEST) if robot.y[lane] < physics.nest_edge else U(0)
         zones = U(ON_SOURCE) if robot.y[lane] > physics.source_edge else zones
         situation = U(U(zones * U(MEMORIES)) + U(robot.memory[lane]))
-        slot = slot_of(bits, slot_bits)
+        slot = slot_of(bits, group.slot_bits[lane])
         robot.bits[lane] = bits
-        robot.place[lane] = U(U(U(situation << U(slot_bits)) | slot) + group.table[lane])
+        robot.place[lane] = U(U(U(situation << U(row_bits)) | slot) + group.table[lane])
     for lane in range(width):
         robot.word[lane] = words[robot.place[lane]]
     for lane in range(width):
-        outcome = I(outcome_of(robot.word[lane], robot.bits[lane], slot_bits))
+        outcome = I(outcome_of(robot.word[lane], robot.bits[lane], group.slot_bits[lane]))
         behaviour = I(outcome >> I(3))
         want = I(I(outcome >> I(1)) & I(1))
         carried = I(robot.memory[lane] >> I(3))

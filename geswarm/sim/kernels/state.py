@@ -121,7 +121,7 @@ OBJECT_LANES = np.dtype(_in_lanes(np.float32, "x", "y"))
 
 GROUP = np.dtype(
     [
-        *_in_lanes(np.uint32, "table"),  # where the simulation's control table starts
+        *_in_lanes(np.uint32, "table", "slot_bits"),  # where the control table starts; its slots
         *_in_lanes(np.int32, "picked", "collected", "lost"),
         *_in_lanes(np.int32, "touch"),  # whether robots may touch in this step
     ]

@@ -32,7 +32,9 @@ def memory_of(carried: int, behaviour: int, want: int) -> int:
 @inlined
 def slot_of(bits: np.uint32, slot_bits: int) -> Any:
     """The slot that random bits choose."""
-    return np.uint32(np.uint32(bits >> np.uint32(1)) >> np.uint32(31 - slot_bits))
+    return np.uint32(
+        np.uint32(bits >> np.uint32(1)) >> np.uint32(np.uint32(31) - np.uint32(slot_bits))
+    )
 
 
 @inlined

@@ -93,6 +93,8 @@ def solve(seed, population=300, generations=40):
         population=population,
         generations=generations,
         tournament=3,
+        crossover=0.3,
+        mutation=0.5,
         max_codons=25,
     )
     engine = Engine(Grammar.load(GRAMMAR), settings, seed)

@@ -22,7 +22,14 @@ def fitness(formula):
 
 def solve(seed, population=200, generations=60):
     """Ask and tell until the formula is found; returns the best individual and the generations."""
-    settings = Settings.preset("modern", population=population, generations=generations)
+    settings = Settings.preset(
+        "modern",
+        population=population,
+        generations=generations,
+        tournament=6,
+        crossover=0.5,
+        mutation=0.5,
+    )
     engine = Engine(Grammar.load(GRAMMAR), settings, seed, identity=values)
     while not engine.finished and (engine.best is None or engine.best.fitness < 0.999):
         engine.tell([fitness(one.phenotype) for one in engine.ask()])
