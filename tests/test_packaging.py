@@ -42,6 +42,6 @@ def test_every_data_file_is_listed():
         path
         for top in ("geswarm", "app", "static")
         for path in (ROOT / top).rglob("*")
-        if path.is_file() and path.suffix != ".py" and "__pycache__" not in path.parts
+        if path.is_file() and path.suffix != ".py" and (path.parent / "__init__.py").exists()
     }
     assert in_tree == listed

@@ -11,7 +11,7 @@ from viser import uplot
 from viser._gui_handles import GuiProgressBarHandle
 
 from geswarm.experiment import RunConfig
-from geswarm.ge import Settings
+from geswarm.ge import PRESETS, Settings
 
 from ..run_directory import new_run_directory
 from ..state.evolution import REFERENCES, EvolutionThread, Phase
@@ -65,6 +65,11 @@ class EvolutionPanel:
         parameters = gui.add_folder("Parameters", expand_by_default=False)
         with parameters:
             settings = Settings()
+            preset = gui.add_dropdown(
+                "Preset",
+                tuple(PRESETS),
+                hint="paper: as the paper evolved; modern: finds good rules sooner",
+            )
             generations = gui.add_number("Generations", settings.generations, min=1, step=1)
             population = gui.add_number("Population", settings.population, min=2, step=1)
             evaluations = gui.add_number("Runs each", settings.evaluations, min=1, step=1)
@@ -75,7 +80,8 @@ class EvolutionPanel:
 
         @start.on_click
         def _(_: object) -> None:
-            settings = Settings(
+            settings = Settings.preset(
+                preset.value,
                 generations=int(generations.value),
                 population=int(population.value),
                 evaluations=int(evaluations.value),
