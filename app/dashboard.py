@@ -25,6 +25,7 @@ from .panels.show_panel import ShowPanel
 from .panels.swarm_panel import SwarmPanel
 from .scene.recorder import Recorder
 from .scene.stage import Stage
+from .server.access import is_loopback
 from .server.gate import ServerError, open_server
 from .state.evolution import EvolutionThread
 from .state.session import Session
@@ -36,7 +37,7 @@ _PANEL_SECONDS = 0.1  # numbers need not change faster
 _TABLE_WIDTH = 600
 _CONTROLS_WIDTH = 320
 _TABLE = (
-    '<iframe src="/rules/rules.html?theme=light" title="Rule table" '
+    '<iframe src="/rules/rules.html?theme={theme}" title="Rule table" '
     'style="display:block;width:100%;height:calc(100vh - 72px);border:0"></iframe>'
 )
 
@@ -51,7 +52,7 @@ class Dashboard:
         session: What is shown.
     """
 
-    def __init__(self, session: Session, host: str, port: int) -> None:
+    def __init__(self, session: Session, host: str, port: int, dark: bool = False) -> None:
         self.session = session
         self.rule_page = RulePage(session)
         self.server = open_server(host, port, self.rule_page.channel, "GESwarm")
@@ -64,16 +65,18 @@ class Dashboard:
         self.record_panel = RecordPanel(session, self.recorder)
         self.evolution_panel = EvolutionPanel(session)
         self._stop = threading.Event()
-        self._build()
+        self._build(dark)
 
     @property
     def address(self) -> str:
         """Where to point a browser."""
         return f"http://{self.server.get_host()}:{self.server.get_port()}"
 
-    def _build(self) -> None:
+    def _build(self, dark: bool) -> None:
         gui = self.server.gui
-        gui.configure_theme(show_logo=False, show_share_button=False, brand_color=(15, 98, 214))
+        gui.configure_theme(
+            show_logo=False, show_share_button=False, brand_color=(15, 98, 214), dark_mode=dark
+        )
         self.stage.build(self.server)
         with gui.add_folder("Swarm"):
             self.swarm_panel.build(gui)
@@ -90,7 +93,7 @@ class Dashboard:
         gui.main_panel.set_width(_CONTROLS_WIDTH)
         table = gui.add_panel()
         with table.add_tab("Rules", viser.Icon.TABLE):
-            gui.add_html(_TABLE)
+            gui.add_html(_TABLE.format(theme="dark" if dark else "light"))
         table.dock_right()
         table.set_width(_TABLE_WIDTH)
 
@@ -149,7 +152,7 @@ def run_dashboard(options: argparse.Namespace) -> int:
     port = 8080 if options.port is None else options.port
     try:
         dashboard = open_dashboard(
-            scenario, rule_set, options.host or "127.0.0.1", port, options.workers
+            scenario, rule_set, options.host or "127.0.0.1", port, options.workers, options.dark
         )
     except ServerError as error:
         raise UsageError(str(error)) from error
@@ -169,7 +172,12 @@ def run_dashboard(options: argparse.Namespace) -> int:
 
 
 def open_dashboard(
-    scenario: Scenario, rule_set: RuleSet, host: str, port: int, workers: int | None = None
+    scenario: Scenario,
+    rule_set: RuleSet,
+    host: str,
+    port: int,
+    workers: int | None = None,
+    dark: bool = False,
 ) -> Dashboard:
     """A dashboard that is served but not yet running.
 
@@ -179,17 +187,20 @@ def open_dashboard(
         host: Address to listen on.
         port: Port to listen on; 0 for any.
         workers: Threads for evolution; None leaves one core to the arena.
+        dark: Light text on a dark ground.
 
     Raises:
         ServerError: It cannot listen there.
     """
     if workers is None:
         workers = max(1, (os.cpu_count() or 1) - 1)
-    return Dashboard(Session(scenario, rule_set, EvolutionThread(workers)), host, port)
+    return Dashboard(Session(scenario, rule_set, EvolutionThread(workers)), host, port, dark)
 
 
 def _announce(dashboard: Dashboard, wanted_port: int) -> None:
     port = dashboard.server.get_port()
     if wanted_port not in (0, port):
         print(f"Port {wanted_port} is busy, using {port} instead.", file=sys.stderr)
+    if not is_loopback(dashboard.server.get_host()):
+        print("Warning: whoever reaches this machine can use the dashboard.", file=sys.stderr)
     print(f"GESwarm is at {dashboard.address}  (Ctrl-C ends it)", flush=True)

@@ -38,6 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     dashboard.add_argument("--host", metavar="H", help="default: 127.0.0.1, this machine only")
     dashboard.add_argument("--port", type=_port, metavar="P", help="default: 8080")
     dashboard.add_argument("--rules", metavar="R", help=f"{RULES_HELP}; default: evo8")
+    dashboard.add_argument("--dark", action="store_true", help="light text on a dark ground")
     headless = parser.add_argument_group("headless evolution")
     headless.add_argument("--no-ui", action="store_true", help="evolve without the dashboard")
     headless.add_argument("--preset", metavar="P", help="paper (default) or modern")

@@ -137,7 +137,13 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
 
     def axis(label: str, size: float) -> uplot.Axis:
         return uplot.Axis(
-            label=label, labelSize=16, labelFont=_FONT, font=_FONT, size=size, ticks={"size": 4}
+            label=label,
+            labelSize=16,
+            labelFont=_FONT,
+            font=_FONT,
+            size=size,
+            stroke="#7f8792",  # to be read on light and on dark ground
+            ticks={"size": 4},
         )
 
     return gui.add_uplot(
