@@ -1,5 +1,6 @@
 """Symbolic regression: find 2.5 x^2 - 0.7 from twenty points."""
 
+import math
 from pathlib import Path
 
 from geswarm.ge import Engine, Grammar, Settings
@@ -17,7 +18,7 @@ def values(formula):
 def fitness(formula):
     """1 for a perfect formula, towards 0 with the sum of absolute errors."""
     errors = (abs(value - y) for value, (_, y) in zip(values(formula), POINTS, strict=True))
-    return 1.0 / (1.0 + sum(errors))
+    return 1.0 / (1.0 + math.fsum(errors))
 
 
 def solve(seed, population=200, generations=60):
