@@ -72,19 +72,20 @@ def draw_scenery(scene: viser.SceneApi, root: str, shape: ArenaShape) -> None:
     east, north = shape.width / 2, shape.length / 2
     nest_edge, source_edge = shape.nest - north, north - shape.source
     across = (-east, east)
+    stretch = _stretch(shape)
     _flat(scene, f"{root}/nest", rectangle(across, (-north, nest_edge)), palette.NEST)
     _flat(scene, f"{root}/source", rectangle(across, (source_edge, north)), palette.SOURCE)
     if source_edge > nest_edge:
         _flat(scene, f"{root}/floor", rectangle(across, (nest_edge, source_edge)), palette.FLOOR)
     _flat(scene, f"{root}/walls", _walls(east, north), _WALL)
-    _flat(scene, f"{root}/table", _table(east, north), _TABLE)
+    _flat(scene, f"{root}/table", _table(east, north, stretch), _TABLE)
     _flat(scene, f"{root}/scale", _scale_bar(east, north), _MARKING)
     for word, colour, middle, depth in (
         ("NEST", _NEST_TEXT, (nest_edge - north) / 2, shape.nest),
         ("SOURCE", _SOURCE_TEXT, (source_edge + north) / 2, shape.source),
     ):
-        height = min(0.42, 0.4 * depth, 0.7 * shape.width / text_width(word, 1.0))
-        letters = painted(word, height).moved(y=middle, z=_LETTERS_Z)
+        height = min(0.42 * stretch, 0.4 * depth, 0.7 * shape.width / text_width(word, 1.0))
+        letters = painted(word, height).moved(y=middle, z=_LETTERS_Z * stretch)
         _flat(scene, f"{root}/{word.lower()}_label", letters, colour)
     _draw_lamp(scene, f"{root}/light", north, shape.light)
 
@@ -116,10 +117,15 @@ def _walls(east: float, north: float) -> Mesh:
     )
 
 
-def _table(east: float, north: float) -> Mesh:
+def _stretch(shape: ArenaShape) -> float:
+    """How much larger than usual an arena is: seen from so far, thin layers would show through."""
+    return max(1.0, shape.width / 25.0, shape.length / 25.0)
+
+
+def _table(east: float, north: float, stretch: float) -> Mesh:
     """A slab that the arena stands on, with room for the lamp in the north."""
     x, y = east + MARGIN, north + MARGIN
-    return box((-x, x), (-y, y), (-0.10, _TABLE_TOP))
+    return box((-x, x), (-y, y), (-0.10 * stretch, _TABLE_TOP * stretch))
 
 
 def _scale_bar(east: float, north: float) -> Mesh:
