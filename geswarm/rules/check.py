@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from geswarm.rules.diagnosis import diagnose
-from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.findings import Finding
 from geswarm.rules.model import RuleSet
-from geswarm.rules.names import name_errors, require_known_names, unknown_name
+from geswarm.rules.names import name_errors
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
-
-__all__ = ["Finding", "Place", "RuleSetError", "check", "require_known_names", "unknown_name"]
 
 
 def check(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> list[Finding]:

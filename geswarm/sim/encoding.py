@@ -10,9 +10,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.check import require_known_names
 from geswarm.rules.control_table import ControlTable
 from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim import footbot
 from geswarm.sim.compiled import fill_slots

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from geswarm.rules.check import Finding
+from geswarm.rules.findings import Finding
 from geswarm.sim import footbot
 
 

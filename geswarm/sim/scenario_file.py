@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from geswarm.rules.check import Finding, Place
+from geswarm.rules.findings import Finding, Place
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
 
 _FOLDER = Path(__file__).parent / "scenarios"
