@@ -55,7 +55,7 @@ class Dashboard:
     def __init__(self, session: Session, host: str, port: int, dark: bool = False) -> None:
         self.session = session
         self.rule_page = RulePage(session)
-        self.server = open_server(host, port, self.rule_page.channel, "GESwarm")
+        self.server = open_server(host, port, {"rules": self.rule_page.channel}, "GESwarm")
         self.stage = Stage(session)
         self.recorder = Recorder()
         self.swarm_panel = SwarmPanel(session)

@@ -1,1 +1,1 @@
-"""The rule table page, served by the dashboard."""
+"""The pages that the dashboard serves beside the arena."""

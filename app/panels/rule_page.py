@@ -1,4 +1,4 @@
-"""The rule table page and the session, talking JSON (see static/protocol.js)."""
+"""The rule table page and the session, talking JSON (see static/rules/protocol.js)."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Everything on one port: viser's page and websocket, and the rule-table page beside them.
+"""Everything on one port: viser's page and websocket, and our own pages beside them.
 
 viser starts its server with `websockets.asyncio.server.serve`. That one call is wrapped while a
-`viser.ViserServer` is constructed: every request is checked, paths under `/rules/` are ours, and
-all others go on to viser unchanged.
+`viser.ViserServer` is constructed: every request is checked, paths below `/<page>/` and `/common/`
+are ours, and all others go on to viser unchanged.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import inspect
 import io
 import socket
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any
@@ -27,8 +27,9 @@ from websockets.http11 import Request, Response
 from .access import Access
 from .channel import Channel
 
-PREFIX = "/rules/"
-SOCKET_PATH = "/rules/socket"
+COMMON = "common"
+"""The folder of static/ that all pages share."""
+
 CONTENT_TYPES = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
@@ -53,10 +54,10 @@ class _Server(viser.ViserServer):
 class Gate:
     """What stands between the port and viser."""
 
-    def __init__(self, access: Access, channel: Channel, static: Path) -> None:
+    def __init__(self, access: Access, pages: Mapping[str, Channel], static: Path) -> None:
         self.access = access
-        self.channel = channel
-        self.static = static
+        self.sockets = {f"/{page}/socket": channel for page, channel in pages.items()}
+        self.folders = [static / name for name in (COMMON, *pages)]
         self.open = False
         self.used = False
         self.mismatch: str | None = None
@@ -77,8 +78,9 @@ class Gate:
 
     def _route(self, viser_handler: Any) -> Callable[[ServerConnection], Any]:
         async def handler(connection: ServerConnection) -> None:
-            if _path(connection.request) == SOCKET_PATH:
-                await self.channel.serve(connection)
+            channel = self.sockets.get(_path(connection.request))
+            if channel is not None:
+                await channel.serve(connection)
             else:
                 await viser_handler(connection)
 
@@ -92,10 +94,11 @@ class Gate:
             if refusal is not None:
                 return _plain(HTTPStatus.FORBIDDEN, refusal)
             path = _path(request)
-            if path.startswith(PREFIX):
-                if path == SOCKET_PATH and request.headers.get_all("Upgrade") == ["websocket"]:
-                    return None
-                return static_response(self.static, path, request.headers["Host"])
+            if path in self.sockets and request.headers.get_all("Upgrade") == ["websocket"]:
+                return None
+            for folder in self.folders:
+                if path.startswith(f"/{folder.name}/"):
+                    return static_response(folder, path, request.headers["Host"])
             answer = viser_process(connection, request)
             response: Response | None = await answer if inspect.isawaitable(answer) else answer
             if response is not None:
@@ -105,14 +108,17 @@ class Gate:
         return process
 
 
-def open_server(host: str, port: int, channel: Channel, label: str) -> viser.ViserServer:
+def open_server(
+    host: str, port: int, pages: Mapping[str, Channel], label: str
+) -> viser.ViserServer:
     """Start viser behind the gate.
 
     Args:
         host: Address to listen on; a loopback address lets in this machine only.
         port: Port to listen on, 0 for any free one. viser takes the next free one if it is busy:
             `get_port()` of the result tells which.
-        channel: Handles the websockets of the rule-table pages.
+        pages: Our own pages: the name of a folder of static/, served as `/<name>/`, and what
+            handles the websocket `/<name>/socket`.
         label: Title of the control panel.
 
     Raises:
@@ -122,7 +128,7 @@ def open_server(host: str, port: int, channel: Channel, label: str) -> viser.Vis
     if host == "localhost":
         host = "127.0.0.1"  # else two sockets, and any machine without IPv6 would fail on one
     _check_address(host, port)
-    gate = Gate(Access(host), channel, static_folder())
+    gate = Gate(Access(host), pages, static_folder())
     with _construction, _wrapped_serve(gate), contextlib.redirect_stdout(io.StringIO()):
         # viser's banner is kept quiet: the app prints the address itself.
         server = _Server(host=host, port=port, label=label, verbose=False)
@@ -163,7 +169,7 @@ def _check_address(host: str, port: int) -> None:
 
 
 def static_folder() -> Path:
-    """The folder of the rule-table page: in the installed package, or beside app/ in a checkout."""
+    """The folder of our pages: in the installed package, or beside app/ in a checkout."""
     here = Path(__file__).resolve().parents[1]
     for folder in (here / "static", here.parent / "static"):
         if folder.is_dir():
@@ -172,15 +178,15 @@ def static_folder() -> Path:
 
 
 def static_response(folder: Path, path: str, host: str) -> Response:
-    """A file of `folder` for a path below `/rules/`; only the names in it are known.
+    """A file of `folder`, whose name the path begins with; only the names in it are known.
 
     Args:
         folder: Flat folder; files with a suffix in CONTENT_TYPES are served, and nothing else.
-        path: Decoded path of the request.
+        path: Decoded path of the request, `/<folder>/<file>`.
         host: `host:port` that the page may open websockets to.
     """
     known = {entry.name: entry for entry in folder.iterdir() if entry.suffix in CONTENT_TYPES}
-    entry = known.get(path.removeprefix(PREFIX))
+    entry = known.get(path.removeprefix(f"/{folder.name}/"))
     if entry is None or not entry.is_file():
         return _plain(HTTPStatus.NOT_FOUND, "not found")
     policy = (

@@ -67,6 +67,6 @@ def channel():
 @pytest.fixture
 def server(channel):
     """viser behind the gate on a free port of the loopback address."""
-    server = open_server("127.0.0.1", 0, channel, "test")
+    server = open_server("127.0.0.1", 0, {"rules": channel}, "test")
     yield server
     server.stop()

@@ -305,8 +305,8 @@ def _page(_connection, request):
     path = request.path.partition("?")[0]
     if path == "/rules/socket":
         return None
-    file = STATIC / path.removeprefix("/rules/")
-    if not (path.startswith("/rules/") and file.suffix in TYPES and file.is_file()):
+    file = STATIC / path.removeprefix("/")
+    if not (file.parent.parent == STATIC and file.suffix in TYPES and file.is_file()):
         return Response(HTTPStatus.NOT_FOUND, "Not Found", Headers(), b"")
     headers = Headers()
     headers["Content-Type"] = TYPES[file.suffix]

@@ -34,15 +34,16 @@ REQUESTS = {
 
 @pytest.fixture(autouse=True)
 def static(tmp_path, monkeypatch):
-    folder = tmp_path / "static"
-    folder.mkdir()
+    folder = tmp_path / "static" / "rules"
+    folder.mkdir(parents=True)
     (folder / "page.html").write_text("<!doctype html><title>ä</title>", encoding="utf-8")
     (folder / "page.js").write_text("1;")
     (folder / "private.py").write_text("secret")
     (folder / "folder.js").mkdir()
-    (tmp_path / "outside.js").write_text("secret")
-    monkeypatch.setattr(gate, "static_folder", lambda: folder)
-    return folder
+    for outside in (folder.parent, folder.parent / "common", folder.parent / "pictures"):
+        outside.mkdir(exist_ok=True)
+        (outside / "outside.js").write_text("shared")
+    monkeypatch.setattr(gate, "static_folder", lambda: folder.parent)
 
 
 def get(server, path, headers=(), host=None):
@@ -93,6 +94,14 @@ def test_static_file(server):
 
 def test_script_has_the_type_that_nosniff_asks_for(server):
     assert get(server, "/rules/page.js")[1]["Content-Type"].startswith("text/javascript")
+
+
+def test_what_all_pages_share_is_served(server):
+    assert get(server, "/common/outside.js")[2] == b"shared"
+
+
+def test_other_folders_are_not(server):
+    assert get(server, "/pictures/outside.js")[2] != b"shared"
 
 
 @pytest.mark.parametrize(
@@ -285,7 +294,7 @@ def test_stuck_page_is_cut_off_and_slows_no_other(server, channel, monkeypatch):
 
 def test_busy_port_becomes_the_next_and_is_told(server, channel):
     port = server.get_port()
-    second = open_server("127.0.0.1", port, channel, "second")
+    second = open_server("127.0.0.1", port, {"rules": channel}, "second")
     try:
         assert second.get_port() > port
         assert get(second, "/")[0] == 200
@@ -294,7 +303,7 @@ def test_busy_port_becomes_the_next_and_is_told(server, channel):
 
 
 def test_localhost_is_the_loopback_address(channel):
-    server = open_server("localhost", 0, channel, "test")
+    server = open_server("localhost", 0, {"rules": channel}, "test")
     try:
         assert get(server, "/", host=f"localhost:{server.get_port()}")[0] == 200
     finally:
@@ -312,7 +321,7 @@ def test_localhost_is_the_loopback_address(channel):
 )
 def test_impossible_address_is_an_error_and_no_endless_wait(channel, host, port, message):
     with pytest.raises(ServerError, match=message):
-        open_server(host, port, channel, "test")
+        open_server(host, port, {"rules": channel}, "test")
 
 
 def test_wrapped_call_is_restored(server):
@@ -322,7 +331,7 @@ def test_wrapped_call_is_restored(server):
 def test_viser_that_does_not_call_serve_is_told(channel, monkeypatch):
     monkeypatch.setattr(gate, "_wrapped_serve", lambda gate: contextlib.nullcontext())
     with pytest.raises(ServerError, match=r"viser .*serve was not called"):
-        open_server("127.0.0.1", 0, channel, "test")
+        open_server("127.0.0.1", 0, {"rules": channel}, "test")
 
 
 def test_viser_that_calls_serve_differently_is_told(channel, monkeypatch):
@@ -332,4 +341,4 @@ def test_viser_that_calls_serve_differently_is_told(channel, monkeypatch):
 
     monkeypatch.setattr(viser.infra, "WebsockServer", Different)
     with pytest.raises(ServerError, match=r"viser .* could not be checked: serve\("):
-        open_server("127.0.0.1", 0, channel, "test")
+        open_server("127.0.0.1", 0, {"rules": channel}, "test")

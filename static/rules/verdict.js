@@ -1,7 +1,7 @@
 /** Did the edit make the rules better? Full runs of these rules beside those of others. */
 
-import { h, iconButton, identify, svg } from "./dom.js";
-import { axis, interval, mean, pValue, quantile, signed } from "./figures.js";
+import { h, iconButton, identify, svg } from "../common/dom.js";
+import { axis, interval, mean, pValue, quantile, signed } from "../common/figures.js";
 
 const HEIGHT = 15; // px of one row's plot
 const GOLDEN = 0.618; // spreads equal values without chance

@@ -5,7 +5,7 @@ import { isEditing } from "./grid.js";
 /**
  * @param {import("./session.js").Session} session
  * @param {import("./table.js").RuleTable} table
- * @param {import("./notices.js").Notices} notices
+ * @param {import("../common/notices.js").Notices} notices
  */
 export function listenToClipboard(session, table, notices) {
   const elsewhere = () =>

@@ -5,8 +5,9 @@ const LONGEST_DELAY = 3000;
 
 /** @returns {string} Address of the socket, beside this page. */
 export function socketAddress() {
-  const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-  return `${scheme}//${location.host}/rules/socket`;
+  const address = new URL("socket", location.href);
+  address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  return address.href;
 }
 
 export class Socket {

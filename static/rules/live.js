@@ -1,6 +1,6 @@
 /** What the swarm is doing: time, robots in each behaviour, and how often each rule fires. */
 
-import { h, identify } from "./dom.js";
+import { h, identify } from "../common/dom.js";
 
 const WINDOW = 60; // s of simulated time over which rates are taken
 const SPACING = 1; // s between the samples that are kept

@@ -125,13 +125,3 @@ export function reconcile(parent, old, items, create) {
   });
   return parts;
 }
-
-/**
- * One line of the list of findings.
- *
- * @param {import("./protocol.js").Severity} severity
- * @param {...(Node | string)} words
- */
-export function findingLine(severity, ...words) {
-  return h("li", { class: severity }, icon(severity === "hint" ? "hint" : "warning"), h("span", {}, ...words));
-}

@@ -6,7 +6,7 @@ import { isEditing, isText } from "./grid.js";
  * @param {import("./session.js").Session} session
  * @param {import("./table.js").RuleTable} table
  * @param {import("./grid.js").Grid} grid
- * @param {import("./dialog.js").Help} help
+ * @param {import("./help.js").Help} help
  */
 export function listenToKeys(session, table, grid, help) {
   document.addEventListener("keydown", (event) => {

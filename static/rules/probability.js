@@ -1,8 +1,8 @@
 /** The probability of an action: typed, chosen among the vocabulary's values, or dragged. */
 
-import { h, identify } from "./dom.js";
+import { h, identify } from "../common/dom.js";
+import { placeBelow } from "../common/menu.js";
 import { draftField } from "./field.js";
-import { placeBelow } from "./menu.js";
 
 const STEP = 0.1; // s, one control step
 const SMALLEST = 0.001; // left end of the slider

@@ -1,6 +1,6 @@
 /** Text that is typed: Enter or leaving the field commits, Esc reverts, messages never overwrite it. */
 
-import { isRendering } from "./dom.js";
+import { isRendering } from "../common/dom.js";
 
 /**
  * @param {HTMLInputElement | HTMLTextAreaElement} input

@@ -1,6 +1,6 @@
 /** The rules as they are beside the version loaded last: what was added, removed, moved, changed. */
 
-import { h } from "./dom.js";
+import { h } from "../common/dom.js";
 import { compareElements, compareRules } from "./difference.js";
 
 const PARTS = { preconditions: "P", behaviours: "B", actions: "A" };

@@ -1,7 +1,8 @@
 /** The rules in their order. */
 
+import { h, icon, keepingFocus, reconcile } from "../common/dom.js";
 import { RuleCard } from "./card.js";
-import { findingLine, h, icon, keepingFocus, reconcile } from "./dom.js";
+import { findingLine } from "./finding.js";
 
 const GLIDE = { duration: 180, easing: "ease-out" };
 const EMPTY_RULE = { comment: "", enabled: true, preconditions: [], behaviours: [], actions: [] };

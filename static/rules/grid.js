@@ -5,7 +5,7 @@
  * again. Enter, a click or typing makes it a field; Enter or Esc makes it a cell again.
  */
 
-import { isRendering } from "./dom.js";
+import { isRendering } from "../common/dom.js";
 
 const CELLS = ".switch, .comment, .tools .tool, .part-body :is(.word, .truth, .p-input, .plus), .add-rule";
 const ROWS = ".rule, .part, .add-rule";

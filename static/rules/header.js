@@ -1,8 +1,8 @@
 /** Name and origin of the rule set, undo and redo, load and save. */
 
-import { h, icon, iconButton, identify } from "./dom.js";
+import { h, icon, iconButton, identify } from "../common/dom.js";
+import { menuButton } from "../common/menu.js";
 import { draftField, growing } from "./field.js";
-import { menuButton } from "./menu.js";
 
 const LARGEST_FILE = 100_000; // bytes; the server cuts off longer messages
 
@@ -27,7 +27,7 @@ export class Header {
   /**
    * @param {Element} root
    * @param {import("./session.js").Session} session
-   * @param {import("./notices.js").Notices} notices
+   * @param {import("../common/notices.js").Notices} notices
    * @param {...Element} below Shown under the title.
    */
   constructor(root, session, notices, ...below) {

@@ -1,19 +1,20 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
+import { h } from "../common/dom.js";
+import { Notices } from "../common/notices.js";
+import { Socket, socketAddress } from "../common/socket.js";
+import { Tabs } from "../common/tabs.js";
 import { ChangesTab } from "./changes.js";
 import { listenToClipboard } from "./clipboard.js";
-import { Help, Simplify } from "./dialog.js";
-import { h } from "./dom.js";
 import { tellDrafts } from "./field.js";
 import { Grid } from "./grid.js";
 import { Header, download } from "./header.js";
+import { Help } from "./help.js";
 import { listenToKeys } from "./keyboard.js";
 import { Live } from "./live.js";
-import { Notices } from "./notices.js";
 import { Session } from "./session.js";
-import { Socket, socketAddress } from "./socket.js";
+import { Simplify } from "./simplify.js";
 import { RuleTable } from "./table.js";
-import { Tabs } from "./tabs.js";
 import { TextTab } from "./text.js";
 import { Verdict } from "./verdict.js";
 import { Worth } from "./worth.js";

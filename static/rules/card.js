@@ -1,10 +1,11 @@
 /** One rule in the paper's layout: explanation, then preconditions, behaviours and actions. */
 
+import { h, icon, iconButton, identify, reconcile } from "../common/dom.js";
+import { menuButton } from "../common/menu.js";
 import { ActionChip, BehaviourChip, PreconditionChip, actionChoices } from "./chips.js";
-import { findingLine, h, icon, iconButton, identify, reconcile } from "./dom.js";
 import { makeDraggable } from "./drag.js";
 import { draftField, growing } from "./field.js";
-import { menuButton } from "./menu.js";
+import { findingLine } from "./finding.js";
 
 const PARTS = [
   {

@@ -1,7 +1,7 @@
 /** The elements of a rule: preconditions, behaviours and actions, each as a chip. */
 
-import { h, iconButton, identify } from "./dom.js";
-import { menuButton } from "./menu.js";
+import { h, iconButton, identify } from "../common/dom.js";
+import { menuButton } from "../common/menu.js";
 import { probabilityField } from "./probability.js";
 
 /** What all chips have in common: a place in a rule, a remove button and findings. */

@@ -1,7 +1,7 @@
 /** What each piece of the rules is worth: a bar at every rule and element. */
 
-import { h, icon, identify, svg } from "./dom.js";
-import { interval, signed } from "./figures.js";
+import { h, icon, identify, svg } from "../common/dom.js";
+import { interval, signed } from "../common/figures.js";
 
 const HEIGHT = 9; // px of a bar's picture
 

@@ -1,6 +1,7 @@
 /** The rules as text in the rule language, checked while it is typed. */
 
-import { findingLine, h, identify } from "./dom.js";
+import { h, identify } from "../common/dom.js";
+import { findingLine } from "./finding.js";
 
 const PAUSE = 250; // ms without a key before the text is checked
 const TOKEN = /(#.*)|("(?:[^"\\]|\\.)*")|([\w.+-]+)|([^\w"#.+-]+)|(.)/g;
