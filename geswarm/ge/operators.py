@@ -11,15 +11,19 @@ import numpy as np
 
 from geswarm.ge.mapping import CODON_LIMIT, Genome, Mapper
 
+INITIAL_CODONS = 200
+"""Length of an initial genome whose derivation needs no more: GEVA's random initialiser's."""
+
 _DERIVATION_ATTEMPTS = 1000
 
 
 def random_genome(mapper: Mapper, max_codons: int, rng: np.random.Generator) -> Genome:
-    """A random derivation from the start symbol, as its codons.
+    """A random derivation from the start symbol, as its codons and an unused tail.
 
     Productions are chosen at random until a sentence is complete (paper, section 2.2); a codon
     drawn uniformly chooses uniformly. A derivation that needs more than `max_codons` choices is
-    redrawn. Like GEVA's growing initialiser this adds no unused codons at the end.
+    redrawn. The genome has `INITIAL_CODONS` codons at least: without the tail, which crossover and
+    mutation draw on, populations get stuck with a dozen codons that are read again and again.
 
     Raises:
         ValueError: Random derivations of this grammar practically never end.
@@ -28,7 +32,7 @@ def random_genome(mapper: Mapper, max_codons: int, rng: np.random.Generator) -> 
         codons = tuple(rng.integers(CODON_LIMIT, size=max_codons).tolist())
         derivation = mapper.map(codons, max_wraps=0)
         if derivation.phenotype is not None:
-            return codons[: max(derivation.used, 1)]
+            return codons[: max(derivation.used, INITIAL_CODONS)]
     raise ValueError(
         f"{mapper.grammar.source}: none of {_DERIVATION_ATTEMPTS} random derivations ended within "
         f"{max_codons} choices, expected a grammar whose recursion ends more often than it grows "

@@ -26,6 +26,11 @@ def is_exact(mapper, genome):
     return derivation.phenotype is not None and derivation.used == len(genome)
 
 
+def random_derivation(mapper, random):
+    genome = random_genome(mapper, 300, random)
+    return exact(genome, mapper.map(genome).used)
+
+
 def is_codons(genome):
     return all(type(codon) is int and 0 <= codon < CODON_LIMIT for codon in genome)
 
@@ -76,7 +81,7 @@ def test_a_rule_set_grows_to_the_depth(mapper, trees, seed, depth):
 
 @given(seed=seeds)
 def test_nodes_are_the_derivation(mapper, trees, grammar, seed):
-    genome = random_genome(mapper, 300, rng(seed))
+    genome = random_derivation(mapper, rng(seed))
     nodes = trees.nodes(genome)
     assert (nodes[0].name, nodes[0].begin, nodes[0].end) == ("S", 0, len(genome))
     choices = [node for node in nodes if not node.forced]
@@ -90,7 +95,7 @@ def test_nodes_are_the_derivation(mapper, trees, grammar, seed):
 @given(seed=seeds)
 def test_crossover_puts_a_stretch_of_the_other_in(mapper, trees, seed):
     random = rng(seed)
-    first, second = (random_genome(mapper, 300, random) for _ in range(2))
+    first, second = (random_derivation(mapper, random) for _ in range(2))
     child = trees.swap(first, second, 1000, random)
     assert any(
         child == first[: a.begin] + second[b.begin : b.end] + first[a.end :]

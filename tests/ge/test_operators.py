@@ -6,7 +6,13 @@ from scipy import stats
 
 from geswarm.ge.grammar import Grammar
 from geswarm.ge.mapping import CODON_LIMIT, Mapper
-from geswarm.ge.operators import mutate, random_genome, roulette, single_point_crossover
+from geswarm.ge.operators import (
+    INITIAL_CODONS,
+    mutate,
+    random_genome,
+    roulette,
+    single_point_crossover,
+)
 
 genomes = st.lists(st.integers(0, CODON_LIMIT - 1), min_size=1, max_size=50).map(tuple)
 seeds = st.integers(0, 2**32)
@@ -17,11 +23,12 @@ def rng(seed=0):
 
 
 @given(seed=seeds)
-def test_a_random_genome_is_a_derivation_without_unused_codons(mapper, seed):
-    genome = random_genome(mapper, 200, rng(seed))
+def test_a_random_genome_is_a_derivation_and_a_tail(mapper, seed):
+    genome = random_genome(mapper, 1000, rng(seed))
     phenotype, used = mapper.map(genome, 0)
     assert phenotype is not None
-    assert used == len(genome) <= 200
+    assert len(genome) == max(used, INITIAL_CODONS)
+    assert len(random_genome(mapper, 50, rng(seed))) <= 50
 
 
 def test_random_derivations_have_the_papers_number_of_rules(mapper):
