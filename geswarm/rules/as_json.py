@@ -10,12 +10,12 @@ A file has `"schema": 1` beside these; whatever else it has is not read.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any, TypeAlias, TypeVar
 
-from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.rules.limits import is_finite
 from geswarm.rules.model import (
     Action,
     BehaviourChange,
@@ -25,7 +25,7 @@ from geswarm.rules.model import (
     RuleSet,
     StateChange,
 )
-from geswarm.rules.names import name_errors
+from geswarm.rules.names import name_errors, probability_error
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA = 1
@@ -83,10 +83,10 @@ class _Reader:
 
     def read(self, document: Json) -> RuleSet:
         if not isinstance(document, dict):
-            self.report(JsonError(f"expected a rule set, got {document!r:.60}"))
+            self.report(JsonError(f"expected a rule set, got {shown(document)}"))
             return RuleSet()
         if document.get("schema", SCHEMA) != SCHEMA:
-            self.report(JsonError(f"expected schema {SCHEMA}, got {document['schema']!r:.60}"))
+            self.report(JsonError(f"expected schema {SCHEMA}, got {shown(document['schema'])}"))
         if "rules" not in document:
             self.report(JsonError('expected "rules" with a list of rules'))
         rules = self.part(list[Json](), lambda: _list(document, "rules"))
@@ -132,7 +132,7 @@ class _Reader:
 
 def _origin(value: Json) -> Origin:
     if not isinstance(value, dict):
-        raise JsonError(f"origin: expected an object, got {value!r:.60}")
+        raise JsonError(f"origin: expected an object, got {shown(value)}")
     known: dict[str, type | tuple[type, ...]] = {
         "preset": str,
         "run": str,
@@ -140,8 +140,9 @@ def _origin(value: Json) -> Origin:
         "fitness": (int, float),
     }
     parts = {key: _field(value, key, known[key]) for key in known if value.get(key) is not None}
-    if not math.isfinite(parts.get("fitness", 0)):
-        raise JsonError(f"fitness: expected a finite number, got {parts['fitness']}")
+    for key in ("generation", "fitness"):
+        if not is_finite(parts.get(key, 0)):
+            raise JsonError(f"{key}: expected a finite number, got {shown(parts[key])}")
     return Origin(**parts)
 
 
@@ -152,7 +153,7 @@ def rule_from_json(value: Json) -> Rule:
         JsonError: The value has another shape.
     """
     if not isinstance(value, dict):
-        raise JsonError(f"expected a rule, got {value!r}")
+        raise JsonError(f"expected a rule, got {shown(value)}")
     return Rule(
         preconditions=tuple(map(precondition_from_json, _list(value, "preconditions"))),
         behaviours=tuple(map(behaviour_from_json, _list(value, "behaviours"))),
@@ -169,7 +170,7 @@ def precondition_from_json(value: Json) -> Precondition:
         JsonError: The value has another shape.
     """
     if not isinstance(value, dict):
-        raise JsonError(f"expected a precondition, got {value!r}")
+        raise JsonError(f"expected a precondition, got {shown(value)}")
     return Precondition(_field(value, "name", str), _field(value, "holds", bool))
 
 
@@ -180,7 +181,7 @@ def behaviour_from_json(value: Json) -> str:
         JsonError: The value is not text.
     """
     if not isinstance(value, str):
-        raise JsonError(f"expected the name of a behaviour, got {value!r}")
+        raise JsonError(f"expected the name of a behaviour, got {shown(value)}")
     return value
 
 
@@ -188,11 +189,13 @@ def action_from_json(value: Json) -> Action:
     """Read {"p", "behaviour"} or {"p", "state", "value"}.
 
     Raises:
-        JsonError: The value has another shape.
+        JsonError: The value has another shape, or p is no finite number.
     """
     if not isinstance(value, dict):
-        raise JsonError(f"expected an action, got {value!r}")
+        raise JsonError(f"expected an action, got {shown(value)}")
     p = _field(value, "p", (int, float))
+    if not is_finite(p):
+        raise JsonError(probability_error(p))
     if "behaviour" in value:
         return BehaviourChange(float(p), _field(value, "behaviour", str))
     return StateChange(float(p), _field(value, "state", str), _field(value, "value", bool))
@@ -201,7 +204,7 @@ def action_from_json(value: Json) -> Action:
 def _list(value: dict[str, Json], key: str) -> list[Json]:
     items = value.get(key, [])
     if not isinstance(items, (list, tuple)):
-        raise JsonError(f"{key}: expected a list, got {items!r}")
+        raise JsonError(f"{key}: expected a list, got {shown(items)}")
     return list(items)
 
 
@@ -210,5 +213,5 @@ def _field(
 ) -> Json:
     found = value.get(key, default)
     if not isinstance(found, kind) or (isinstance(found, bool) and kind is not bool):
-        raise JsonError(f"{key}: got {found!r}")
+        raise JsonError(f"{key}: got {shown(found)}")
     return found

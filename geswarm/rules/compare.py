@@ -10,7 +10,7 @@ import numpy as np
 from geswarm.rules.control_table import ControlTable, Indexing
 from geswarm.rules.english import join_phrases
 from geswarm.rules.model import RuleSet
-from geswarm.rules.reachability import TOLERANCE, reachable_situations
+from geswarm.rules.reachability import TOLERANCE, effective_outcomes, reachable_situations
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 
@@ -34,9 +34,10 @@ class Difference:
 
 
 def same_behaviour(a: RuleSet, b: RuleSet, vocabulary: Vocabulary = FORAGING) -> bool:
-    """Whether robots under either rule set decide the same, with the same probabilities.
+    """Whether robots under either rule set do the same, with the same probabilities.
 
-    Asked in every situation that robots can get into; probabilities may differ by 1e-12.
+    Asked in every situation that robots can get into; probabilities may differ by 1e-12. To drop an
+    object where none is held is to do nothing.
 
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
@@ -58,7 +59,9 @@ def first_difference(
     indexing = Indexing.of(vocabulary)
     shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
     tables = [
-        ControlTable.compile(each, vocabulary).probabilities.reshape(shape) for each in (a, b)
+        ControlTable.compile(each, vocabulary).probabilities.reshape(shape)
+        @ effective_outcomes(vocabulary)
+        for each in (a, b)
     ]
     differs = (np.abs(tables[0] - tables[1]) > TOLERANCE).any(axis=2)
     for table in tables:

@@ -1,7 +1,7 @@
 """What a rule set never does: decided on its exact outcome distributions, not guessed.
 
 Every statement is about the situations that `geswarm.rules.reachability` cannot rule out. A piece
-has no effect if the rule set without it decides with the same probabilities in all of them. Each
+has no effect if robots do the same with the same probabilities without it in all of them. Each
 piece gets one finding, the most specific that is true.
 """
 
@@ -20,6 +20,7 @@ from geswarm.rules.reachability import TOLERANCE, Trace, is_nothing, no_change
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 NO_EFFECT = "no effect: the robots do the same without it"
+NOTHING_HELD = "there is no object to drop"
 
 
 def diagnose(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> list[Finding]:
@@ -123,6 +124,8 @@ def _why_idle_rule(trace: Trace, at: int, numbers: Sequence[int], active: FloatA
     if not any(_changes(active, action, trace.vocabulary) for action in actions):
         already = _already_so(actions[0]) if len(actions) == 1 else "everything is already as set"
         return f"{already} whenever it fires"
+    if not any(_has_effect(trace, active, action) for action in actions):
+        return f"{NOTHING_HELD} whenever it fires"
     for action in actions:
         after = apply_action(after, action, trace.vocabulary)
     if is_nothing(after - active):
@@ -134,6 +137,12 @@ def _changes(distribution: FloatArray, action: Action, vocabulary: Vocabulary) -
     """Whether there is anything that the action would change if it were drawn."""
     certain = replace(action, p=1.0)
     return not np.array_equal(apply_action(distribution, certain, vocabulary), distribution)
+
+
+def _has_effect(trace: Trace, distribution: FloatArray, action: Action) -> bool:
+    """Whether the action would change anything that lasts if it were drawn and no rule followed."""
+    done = apply_action(distribution, replace(action, p=1.0), trace.vocabulary)
+    return not is_nothing((done - distribution) @ trace.after[-1])
 
 
 def _made_idle_by(trace: Trace, at: int) -> int | None:
@@ -149,7 +158,7 @@ def _made_idle_by(trace: Trace, at: int) -> int | None:
 def _overriding_rule(trace: Trace, at: int, difference: FloatArray, numbers: Sequence[int]) -> str:
     """The first later rule after which a difference is gone that does not last until the end."""
     later = at
-    while not is_nothing(difference) and later + 1 < len(trace.rules):
+    while not is_nothing(difference @ trace.after[-1]) and later + 1 < len(trace.rules):
         later += 1
         difference = difference @ trace.matrices[later]
     return f"rule {numbers[later]}"
@@ -203,11 +212,14 @@ def _idle_actions(
         if action.p > TOLERANCE and not _changes(active, action, vocabulary):
             already = f"no effect: {_already_so(action)} whenever this rule fires"
             yield _finding(numbers[at], element, already)
+        elif action.p > TOLERANCE and not _has_effect(trace, active, action):
+            nothing_held = f"no effect: {NOTHING_HELD} whenever this rule fires"
+            yield _finding(numbers[at], element, nothing_held)
         elif action.p > TOLERANCE:
             difference, overriding = done - active, ""
             for later, other in enumerate(rule.actions[index:], start=index + 1):
                 difference = apply_action(difference, other, vocabulary)
-                if is_nothing(difference):
+                if is_nothing(difference @ trace.after[-1]):
                     overriding = f"action {later}"
                     break
             if is_nothing(difference @ trace.after[at + 1]):

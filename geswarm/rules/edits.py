@@ -16,16 +16,14 @@ from geswarm.rules.as_json import (
     precondition_from_json,
     rule_from_json,
 )
-from geswarm.rules.findings import RuleSetError
+from geswarm.rules.findings import RuleSetError, shown
+from geswarm.rules.limits import MAX_CHARACTERS, require_size
 from geswarm.rules.model import Rule, RuleSet
 from geswarm.rules.names import require_known_names
 from geswarm.rules.text import parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-MAX_RULES = 1000
-MAX_ELEMENTS = 1000
 MAX_COMMENT = 10_000
-MAX_PASTE = 200_000
 
 _ELEMENT_READERS: dict[str, Callable[[Any], Any]] = {
     "preconditions": precondition_from_json,
@@ -48,14 +46,13 @@ def apply_edit(
     """
     make = EDITS.get(edit.get("do", "")) if isinstance(edit.get("do", ""), str) else None
     if make is None:
-        raise EditError(f"unknown edit {edit.get('do')!r}; expected one of {', '.join(EDITS)}")
+        raise EditError(f"unknown edit {shown(edit.get('do'))}; expected one of {', '.join(EDITS)}")
     try:
         edited = make(rule_set, edit, vocabulary)
         require_known_names(edited, vocabulary)
+        require_size(edited)
     except (JsonError, RuleSetError) as error:
         raise EditError(str(error)) from error
-    if len(edited.rules) > MAX_RULES:
-        raise EditError(f"expected at most {MAX_RULES} rules")
     return edited
 
 
@@ -63,7 +60,7 @@ def _position(edit: dict[str, Any], key: str, length: int, what: str) -> int:
     value = edit.get(key)
     if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < length:
         given = value + 1 if isinstance(value, int) else value
-        raise EditError(f"there is no {what} {given}; expected 1 to {length}")
+        raise EditError(f"there is no {what} {shown(given)}; expected 1 to {length}")
     return value
 
 
@@ -98,7 +95,7 @@ def _add_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet
 def _paste_rules(rule_set: RuleSet, edit: dict[str, Any], vocabulary: Vocabulary) -> RuleSet:
     """Insert rules written in the rule language; a name or origin among them is left out."""
     at = _position(edit, "at", len(rule_set.rules) + 1, "place for rule")
-    pasted = parse_text(_text(edit, "text", MAX_PASTE), vocabulary=vocabulary).rules
+    pasted = parse_text(_text(edit, "text", MAX_CHARACTERS), vocabulary=vocabulary).rules
     if not pasted:
         raise EditError("expected at least one rule, for example: rule do p = 1, PHOTOTAXIS")
     return _insert(rule_set, at, *pasted)
@@ -124,7 +121,7 @@ def _move_rule(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSe
 def _set_enabled(rule_set: RuleSet, edit: dict[str, Any], _: Vocabulary) -> RuleSet:
     at = _rule_at(rule_set, edit)
     if not isinstance(edit.get("enabled"), bool):
-        raise EditError(f"enabled must be true or false, got {edit.get('enabled')!r}")
+        raise EditError(f"enabled must be true or false, got {shown(edit.get('enabled'))}")
     return _with_rule(rule_set, at, replace(rule_set.rules[at], enabled=edit["enabled"]))
 
 
@@ -142,10 +139,9 @@ def _change_part(
     at = _rule_at(rule_set, edit)
     part = edit.get("part")
     if not isinstance(part, str) or part not in _ELEMENT_READERS:
-        raise EditError(f"unknown part {part!r}; expected one of {', '.join(_ELEMENT_READERS)}")
+        known = ", ".join(_ELEMENT_READERS)
+        raise EditError(f"unknown part {shown(part)}; expected one of {known}")
     elements = change(getattr(rule_set.rules[at], part), _ELEMENT_READERS[part])
-    if len(elements) > MAX_ELEMENTS:
-        raise EditError(f"expected at most {MAX_ELEMENTS} {part} in a rule")
     changes: dict[str, Any] = {part: elements}
     return _with_rule(rule_set, at, replace(rule_set.rules[at], **changes))
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from geswarm.rules.findings import shown
 from geswarm.rules.model import Action, BehaviourChange, Precondition, StateChange
 from geswarm.rules.names import probability_error, unknown_name
 from geswarm.rules.vocabulary import Vocabulary
@@ -55,7 +56,7 @@ def parse_precondition(text: str, vocabulary: Vocabulary) -> Precondition:
     """
     match = _PRECONDITION.fullmatch(text.strip())
     if match is None:
-        raise ElementError(f"expected NAME == true or NAME == false, got {text.strip()!r}")
+        raise ElementError(f"expected NAME == true or NAME == false, got {shown(text.strip())}")
     known = vocabulary.precondition_index
     if match["name"] not in known:
         raise ElementError(unknown_name("precondition", match["name"], known))
@@ -83,7 +84,7 @@ def parse_action(text: str, vocabulary: Vocabulary) -> Action:
     match = _ACTION.fullmatch(text.strip())
     if match is None:
         raise ElementError(
-            f"expected p = NUMBER, BEHAVIOUR or p = NUMBER, STATE = true, got {text.strip()!r}"
+            f"expected p = NUMBER, BEHAVIOUR or p = NUMBER, STATE = true, got {shown(text.strip())}"
         )
     p = _probability(match["p"])
     name, value = match["name"], match["value"]
@@ -105,14 +106,15 @@ def _boolean(text: str) -> bool:
     try:
         return _BOOLEANS[text.lower()]
     except KeyError:
-        raise ElementError(f"expected true or false, got {text!r}") from None
+        raise ElementError(f"expected true or false, got {shown(text)}") from None
 
 
 def _probability(text: str) -> float:
     try:
         p = float(text)
     except ValueError:
-        raise ElementError(f"probability must be a number between 0 and 1, got {text!r}") from None
+        message = f"probability must be a number between 0 and 1, got {shown(text)}"
+        raise ElementError(message) from None
     if reason := probability_error(p):
         raise ElementError(reason)
     return p

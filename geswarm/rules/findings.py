@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 Severity: TypeAlias = Literal["error", "warning", "hint"]
+
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
+
+
+def shown(value: object) -> str:
+    """A value as messages quote it: short, on one line, whatever it is."""
+    try:
+        return _SHORT.repr(value)
+    except ValueError:  # a whole number with more digits than Python writes
+        return "a number with thousands of digits"
 
 
 @dataclass(frozen=True)

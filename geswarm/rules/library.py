@@ -9,6 +9,7 @@ from pathlib import Path
 
 from geswarm.rules.as_json import format_json, parse_json
 from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.limits import MAX_CHARACTERS, read_beginning, require_size, too_long
 from geswarm.rules.model import RuleSet
 from geswarm.rules.names import unknown_name
 from geswarm.rules.text import format_text, parse_text
@@ -56,19 +57,20 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
     """
     if reference in preset_names():
         return load_preset(reference, vocabulary)
-    if reference == "-":
-        return read_rule_set(sys.stdin.read(), "<stdin>", vocabulary)
-    path = Path(reference)
+    source = "<stdin>" if reference == "-" else reference
     try:
-        text = path.read_text(encoding="utf-8")
+        if reference == "-":
+            text = sys.stdin.read(MAX_CHARACTERS + 1)
+        else:
+            text = read_beginning(Path(reference))
     except UnicodeDecodeError as error:
         reason = f"not a text file: {error.reason} at byte {error.start}"
-        raise RuleSetError([Finding(Place(reference), reason)]) from error
+        raise RuleSetError([Finding(Place(source), reason)]) from error
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         hint = f"neither a file ({reason}) nor a preset ({', '.join(preset_names())})"
         raise RuleSetNotFoundError([Finding(Place(reference), hint)]) from error
-    return read_rule_set(text, reference, vocabulary)
+    return read_rule_set(text, source, vocabulary)
 
 
 def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -> RuleSet:
@@ -77,10 +79,17 @@ def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING
     Raises:
         RuleSetError: With every problem, each with file, line, rule and element.
     """
+    if message := too_long(text):
+        raise RuleSetError([Finding(Place(source), message)])
     if source.endswith(".json") or text.lstrip().startswith("{"):
-        return parse_json(text, source, vocabulary)
-    is_yaml = source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text)
-    return (parse_yaml if is_yaml else parse_text)(text, source, vocabulary)
+        parse = parse_json
+    elif source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text):
+        parse = parse_yaml
+    else:
+        parse = parse_text
+    rule_set = parse(text, source, vocabulary)
+    require_size(rule_set, source)
+    return rule_set
 
 
 def save_rule_set(rule_set: RuleSet, path: str | Path) -> None:

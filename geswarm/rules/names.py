@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import difflib
-import math
 from collections.abc import Iterable, Iterator
 
-from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.rules.limits import is_finite
 from geswarm.rules.model import BehaviourChange, Rule, RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -18,13 +18,13 @@ def unknown_name(kind: str, given: str, known: Iterable[str]) -> str:
     by_folded = {name.upper().replace("-", "_"): name for name in known}
     near = difflib.get_close_matches(upper, by_folded, n=1, cutoff=0.5)
     hint = f"did you mean {by_folded[near[0]]}?" if near else f"expected {' or '.join(known)}"
-    return f"unknown {kind} {given!r}; {hint}"
+    return f"unknown {kind} {shown(given)}; {hint}"
 
 
 def probability_error(p: float) -> str | None:
     """Why p is not a probability, or None if it is."""
-    if isinstance(p, bool) or not math.isfinite(p) or not 0.0 <= p <= 1.0:
-        return f"probability must be between 0 and 1, got {p}"
+    if isinstance(p, bool) or not is_finite(p) or not 0.0 <= p <= 1.0:
+        return f"probability must be between 0 and 1, got {shown(p)}"
     return None
 
 

@@ -7,12 +7,14 @@ vocabulary's initial behaviour and internal states and without an object. In eve
 anything, except percepts that are never true together (the nest and the source do not overlap) and
 except that it perceives a held object exactly. It holds an object from a step at whose end it
 wanted one until a step at whose end it drops it; momentary internal states are then false again.
+Dropping without an object does nothing: outcomes that differ in that alone are the same.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -99,7 +101,8 @@ class Trace:
         before: When the turn of each rule comes, and last after all rules: shape (percepts,
             behaviours * states, outcomes), rows of unreachable situations are zero.
         matrices: What each rule does, shape (percepts, outcomes, outcomes).
-        after: What all rules from each one on do together, and last nothing; same shape.
+        after: What all rules from each one on do together, and last what becomes of outcomes when
+            the rules are done, see `effective_outcomes`; same shape.
     """
 
     rules: tuple[Rule, ...]
@@ -123,7 +126,7 @@ class Trace:
         reachable = reachable_situations(before[-1], vocabulary)[:, :, None]
         nothing = no_change(vocabulary)
         matrices = [apply_rule(nothing, rule, vocabulary) for rule in rules]
-        after = [nothing]
+        after = [effective_outcomes(vocabulary)]
         for matrix in reversed(matrices):
             after.append(matrix @ after[-1])
         return cls(
@@ -139,11 +142,40 @@ class Trace:
         """The reachable situations, shape (percepts, behaviours * states)."""
         return np.asarray(self.before[0].any(axis=2))
 
+    @property
+    def decided(self) -> FloatArray:
+        """What robots come to in the end, by its effects; shape as `before`."""
+        return self.before[-1] @ self.after[-1]
+
     def matters(self, at: int, instead: Rule | None) -> bool:
         """Whether the step's outcome differs with another rule, or none, in the place of one."""
         turn = self.before[at]
         replaced = turn if instead is None else apply_rule(turn, instead, self.vocabulary)
         return not is_nothing((replaced - self.before[at + 1]) @ self.after[at + 1])
+
+
+@lru_cache(maxsize=8)
+def effective_outcomes(vocabulary: Vocabulary) -> FloatArray:
+    """Each outcome as the one that stands for its effects, as 0/1 matrices.
+
+    It is another one where nothing is held that could be dropped.
+
+    Returns:
+        Shape (percepts, outcomes, outcomes), read-only.
+    """
+    indexing, objects = Indexing.of(vocabulary), vocabulary.objects
+    matrices = no_change(vocabulary).copy()
+    if objects is not None:
+        held = vocabulary.precondition_index[objects.holding]
+        empty = (np.arange(indexing.percepts) >> held & 1) == 0
+        dropping = 1 << vocabulary.state_index[objects.dropping]
+        for outcome in range(indexing.outcomes):
+            behaviour, states, restart = indexing.describe_outcome(outcome)
+            same = indexing.outcome(behaviour, states & ~dropping, restart)
+            matrices[empty, outcome] = 0.0
+            matrices[empty, outcome, same] = 1.0
+    matrices.setflags(write=False)
+    return matrices
 
 
 def no_change(vocabulary: Vocabulary) -> FloatArray:

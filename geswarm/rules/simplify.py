@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, TypeAlias
 
 from geswarm.rules.control_table import FloatArray, apply_rule
 from geswarm.rules.elements import format_action, format_precondition
 from geswarm.rules.model import Rule, RuleSet
-from geswarm.rules.reachability import Trace, is_nothing, no_change
+from geswarm.rules.reachability import Trace, effective_outcomes, is_nothing, no_change
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-_Shorter: TypeAlias = Callable[[Rule], Iterator[Rule | None]]
+_IsSame: TypeAlias = Callable[[Rule | None], bool]
+_Shorten: TypeAlias = Callable[[Rule, _IsSame], Rule | None]
 
 
 @dataclass(frozen=True)
@@ -45,8 +47,8 @@ def simplify(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> Simplifica
     before: list[Rule | None] = []
     while rules != before:
         before = rules
-        for shorter in (_no_rule, _without_one_piece):
-            rules = _sweep(rules, shorter, target)
+        for shorten in (_without_rule, _without_pieces):
+            rules = _sweep(rules, shorten, target)
     kept = [
         rule if original.enabled else original
         for original, rule in zip(rule_set.rules, rules, strict=True)
@@ -60,50 +62,46 @@ def simplify(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> Simplifica
     return Simplification(replace(rule_set, rules=remaining), tuple(removed))
 
 
-def _sweep(rules: list[Rule | None], shorter: _Shorter, target: Trace) -> list[Rule | None]:
+def _sweep(rules: list[Rule | None], shorten: _Shorten, target: Trace) -> list[Rule | None]:
     """Shorten the rules from the last to the first as far as `target` allows; None is no rule."""
     vocabulary = target.vocabulary
     before = [target.before[0]]
     for rule in rules:
         before.append(apply_rule(before[-1], rule, vocabulary) if rule else before[-1])
-    after = no_change(vocabulary)
+    after = effective_outcomes(vocabulary)
     swept = list(rules)
     for at in reversed(range(len(rules))):
-        swept[at] = rule = _shortened(rules[at], shorter, target, before[at], after)
+        rule = rules[at]
+        if rule is not None:
+            swept[at] = rule = shorten(rule, partial(_is_same, target, before[at], after))
         if rule is not None:
             after = apply_rule(no_change(vocabulary), rule, vocabulary) @ after
     return swept
 
 
-def _shortened(
-    rule: Rule | None, shorter: _Shorter, target: Trace, turn: FloatArray, after: FloatArray
-) -> Rule | None:
-    """One rule without all that can go; `turn` comes before it, `after` are the rules behind it."""
-    while rule is not None:
-        for candidate in shorter(rule):
-            done = turn if candidate is None else apply_rule(turn, candidate, target.vocabulary)
-            if is_nothing(done @ after - target.before[-1]):
-                rule = candidate
-                break
-        else:
-            return rule
-    return None
+def _is_same(target: Trace, turn: FloatArray, after: FloatArray, rule: Rule | None) -> bool:
+    """Whether `rule` may stand where `turn` comes before it and `after` are the rules behind it."""
+    done = turn if rule is None else apply_rule(turn, rule, target.vocabulary)
+    return is_nothing(done @ after - target.decided)
 
 
-def _no_rule(_: Rule) -> Iterator[Rule | None]:
-    yield None
+def _without_rule(rule: Rule, is_same: _IsSame) -> Rule | None:
+    return None if is_same(None) else rule
 
 
-def _without_one_piece(rule: Rule) -> Iterator[Rule | None]:
+def _without_pieces(rule: Rule, is_same: _IsSame) -> Rule:
+    """Without each piece that can go, the last one first."""
     for part in ("actions", "preconditions", "behaviours"):
-        elements: tuple[Any, ...] = getattr(rule, part)
-        if part == "behaviours" and elements:
-            yield replace(rule, behaviours=())
-            if len(elements) == 1:
-                return
-        for index in reversed(range(len(elements))):
+        anywhere = replace(rule, behaviours=())
+        if part == "behaviours" and is_same(anywhere):
+            rule = anywhere
+        for index in reversed(range(len(getattr(rule, part)))):
+            elements: tuple[Any, ...] = getattr(rule, part)
             changes: dict[str, Any] = {part: elements[:index] + elements[index + 1 :]}
-            yield replace(rule, **changes)
+            shorter = replace(rule, **changes)
+            if shorter != anywhere and is_same(shorter):
+                rule = shorter
+    return rule
 
 
 def _removed(number: int, original: Rule, rule: Rule | None) -> Iterator[str]:

@@ -22,13 +22,16 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from geswarm.rules.conditions import Condition, minimise
 from geswarm.rules.control_table import Indexing
 from geswarm.rules.english import STEP_SECONDS
 from geswarm.rules.model import RuleSet
-from geswarm.rules.reachability import TOLERANCE, Trace
+from geswarm.rules.reachability import TOLERANCE, Trace, effective_outcomes
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
+
+IntArray: TypeAlias = npt.NDArray[np.int64]
 
 _DIGITS = 12  # probabilities that agree to this many decimals are the same
 
@@ -41,17 +44,23 @@ class State:
         behaviour: What the robot executes.
         internal: The internal states that distinguish it from other states of the same behaviour.
         initial: Whether robots start in it.
+        column: Behaviour and internal states, as the control table numbers them.
     """
 
     behaviour: str
-    internal: tuple[tuple[str, bool], ...] = ()
-    initial: bool = False
+    internal: tuple[tuple[str, bool], ...]
+    initial: bool
+    column: int
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """The internal states: `not WANT_OBJECT`."""
+        return tuple(name if value else f"not {name}" for name, value in self.internal)
 
     @property
     def label(self) -> str:
         """`RANDOM_WALK`, or `RANDOM_WALK, not WANT_OBJECT`."""
-        marks = [name if value else f"not {name}" for name, value in self.internal]
-        return ", ".join([self.behaviour, *marks])
+        return ", ".join([self.behaviour, *self.marks])
 
 
 @dataclass(frozen=True)
@@ -91,11 +100,31 @@ class Transition:
 
 @dataclass(frozen=True)
 class _Event:
-    """What a robot comes to in a step; the unit in which transitions are counted."""
+    """What a robot comes to in a step; the unit in which transitions are counted.
 
-    target: int
+    Attributes:
+        column: Of the state after.
+        effects: As of a transition.
+        restarts: As of a transition.
+    """
+
+    column: int
     effects: tuple[str, ...]
     restarts: bool
+
+    @classmethod
+    def of(cls, outcome: int, column: int, vocabulary: Vocabulary) -> _Event:
+        """What an outcome, as the control table numbers them, is to a robot in a column."""
+        indexing = Indexing.of(vocabulary)
+        behaviour, states, restart = indexing.describe_outcome(outcome)
+        effects = tuple(
+            entry.name
+            for bit, entry in enumerate(vocabulary.internal_states)
+            if entry.momentary and states >> bit & 1
+        )
+        after = behaviour * indexing.states + (states & vocabulary.lasting_states)
+        same = behaviour == column // indexing.states
+        return cls(after, effects, restart and same)
 
 
 @dataclass(frozen=True)
@@ -142,6 +171,59 @@ class StateMachine:
             groups[transition.source, transition.target].append(transition)
         return {pair: tuple(group) for pair, group in groups.items()}
 
+    def robots_in_states(
+        self, behaviour: npt.NDArray[np.uint8], internal_states: npt.NDArray[np.uint8]
+    ) -> IntArray:
+        """How many robots are in each state, shape (states,).
+
+        After a change of the rules, robots can still be where the new rules never lead: they are in
+        none of the states.
+
+        Args:
+            behaviour: Behaviour codes, shape (robots,).
+            internal_states: Internal states as bits, shape (robots,).
+        """
+        indexing = Indexing.of(self.vocabulary)
+        columns = behaviour.astype(np.int64) * indexing.states + internal_states
+        robots = np.bincount(columns, minlength=indexing.behaviours * indexing.states)
+        return robots[[state.column for state in self.states]]
+
+    def times_taken(self, decisions: IntArray) -> IntArray:
+        """How often each transition was taken, shape (transitions,).
+
+        Args:
+            decisions: How often robots came from each situation to each outcome, shape (situations,
+                outcomes), as `World.decisions` counts them.
+        """
+        known = self._transition_of >= 0
+        times = np.zeros(len(self.transitions), dtype=np.int64)
+        np.add.at(times, self._transition_of[known], decisions[known])
+        return times
+
+    @cached_property
+    def _transition_of(self) -> IntArray:
+        """The transition that each outcome is, -1 for none; shape (situations, outcomes)."""
+        indexing = Indexing.of(self.vocabulary)
+        becomes = effective_outcomes(self.vocabulary).argmax(axis=2)
+        columns = [state.column for state in self.states]
+        alike: dict[tuple[int, _Event], list[int]] = defaultdict(list)
+        for at, entry in enumerate(self.transitions):
+            event = _Event(columns[entry.target], entry.effects, entry.restarts)
+            alike[columns[entry.source], event].append(at)
+        shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
+        found = np.full(shape, -1)
+        for percepts, outcome in np.ndindex(becomes.shape):
+            sensed = {
+                name: bool(percepts >> bit & 1)
+                for name, bit in self.vocabulary.precondition_index.items()
+            }
+            for column in columns:
+                event = _Event.of(int(becomes[percepts, outcome]), column, self.vocabulary)
+                for at in alike.get((column, event), ()):
+                    if self.transitions[at].condition.holds(sensed):
+                        found[percepts, column, outcome] = at
+        return found.reshape(indexing.situations, indexing.outcomes)
+
     def effects(self, transition: Transition) -> tuple[str, ...]:
         """What a transition does besides changing the state, in words."""
         vocabulary = self.vocabulary
@@ -169,10 +251,6 @@ class StateMachine:
         return machine_svg(self)
 
 
-_Column: TypeAlias = int
-"""Behaviour and internal states at the start of a step, as the control table numbers them."""
-
-
 class _Reader:
     """Reads states and transitions off a trace of the rule set."""
 
@@ -180,6 +258,10 @@ class _Reader:
         self.vocabulary = vocabulary
         self.indexing = Indexing.of(vocabulary)
         self.trace = Trace.of(rule_set, vocabulary)
+        self.decided = self.trace.decided
+        self.before, self.after = np.stack(self.trace.before), np.stack(self.trace.after)
+        stays = np.eye(self.indexing.outcomes, dtype=bool)
+        self.moves = np.array([(matrix > 0) & ~stays for matrix in self.trace.matrices])
         self.numbers = [at for at, rule in enumerate(rule_set.rules, start=1) if rule.enabled]
         self.names = tuple(entry.name for entry in vocabulary.preconditions)
         self.columns = [int(column) for column in np.flatnonzero(self.trace.reachable.any(axis=0))]
@@ -195,7 +277,7 @@ class _Reader:
             if len({states >> bit & 1 for states in seen}) == 2
         ]
 
-    def _state(self, column: _Column) -> State:
+    def _state(self, column: int) -> State:
         behaviour, states = divmod(column, self.indexing.states)
         name = self.vocabulary.behaviours[behaviour].name
         return State(
@@ -206,6 +288,7 @@ class _Reader:
             ),
             initial=name == self.vocabulary.initial_behaviour
             and states == self.vocabulary.initial_states,
+            column=column,
         )
 
     def transitions_from(self, source: int) -> Iterator[Transition]:
@@ -216,16 +299,16 @@ class _Reader:
         percepts_of: dict[tuple[_Event, float], list[int]] = defaultdict(list)
         for percepts in map(int, reachable):
             for event, probability in self._events(percepts, column).items():
-                if probability > TOLERANCE and event != _Event(source, (), False):
+                if probability > TOLERANCE and event != _Event(column, (), False):
                     percepts_of[event, round(probability, _DIGITS)].append(percepts)
         in_order = sorted(
             percepts_of.items(),
-            key=lambda item: (item[0][0].target, item[0][0].effects, -item[0][1], item[1]),
+            key=lambda item: (item[0][0].column, item[0][0].effects, -item[0][1], item[1]),
         )
         for (event, probability), where in in_order:
             yield Transition(
                 source,
-                event.target,
+                self.columns.index(event.column),
                 minimise(where, free, self.names),
                 probability,
                 event.effects,
@@ -233,45 +316,26 @@ class _Reader:
                 self._rules_behind(where, column, event),
             )
 
-    def _events(self, percepts: int, column: _Column) -> dict[_Event, float]:
+    def _events(self, percepts: int, column: int) -> dict[_Event, float]:
         """Probability of everything that can happen in one situation."""
         events: dict[_Event, float] = defaultdict(float)
-        row = self.trace.before[-1][percepts, column]
+        row = self.decided[percepts, column]
         for outcome in np.flatnonzero(row):
-            events[self._event(percepts, column, int(outcome))] += float(row[outcome])
+            event = _Event.of(int(outcome), column, self.vocabulary)
+            events[event] += float(row[outcome])
         return events
 
-    def _event(self, percepts: int, column: _Column, outcome: int) -> _Event:
-        """Dropping counts only where an object is held: without one it does nothing."""
-        behaviour, states, restart = self.indexing.describe_outcome(outcome)
-        vocabulary = self.vocabulary
-        objects = vocabulary.objects
-        holding = objects is None or percepts >> vocabulary.precondition_index[objects.holding] & 1
-        effects = tuple(
-            entry.name
-            for bit, entry in enumerate(vocabulary.internal_states)
-            if entry.momentary
-            and states >> bit & 1
-            and (holding or objects is None or entry.name != objects.dropping)
-        )
-        after = behaviour * self.indexing.states + (states & vocabulary.lasting_states)
-        same = behaviour == column // self.indexing.states
-        return _Event(self.columns.index(after), effects, restart and same)
-
-    def _rules_behind(self, where: list[int], column: _Column, event: _Event) -> tuple[int, ...]:
+    def _rules_behind(self, where: list[int], column: int, event: _Event) -> tuple[int, ...]:
         """Rules that change something on some way to the event."""
-        behind = set()
+        behind: set[int] = set()
         for percepts in where:
             finals = [
                 outcome
-                for outcome in map(int, np.flatnonzero(self.trace.before[-1][percepts, column]))
-                if self._event(percepts, column, outcome) == event
+                for outcome in map(int, np.flatnonzero(self.decided[percepts, column]))
+                if _Event.of(outcome, column, self.vocabulary) == event
             ]
-            for at, number in enumerate(self.numbers):
-                moves = self.trace.matrices[at][percepts] > 0
-                np.fill_diagonal(moves, False)
-                come_by = self.trace.before[at][percepts, column] > 0
-                lead_there = (self.trace.after[at + 1][percepts][:, finals] > 0).any(axis=1)
-                if (moves & come_by[:, None] & lead_there[None, :]).any():
-                    behind.add(number)
+            come_by = self.before[:-1, percepts, column] > 0
+            lead_there = self.after[1:, percepts][:, :, finals].sum(axis=2) > 0
+            ways = self.moves[:, percepts] & come_by[:, :, None] & lead_there[:, None, :]
+            behind.update(self.numbers[at] for at in np.flatnonzero(ways.any(axis=(1, 2))))
         return tuple(sorted(behind))

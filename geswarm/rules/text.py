@@ -15,7 +15,6 @@ phenotypes that the grammar derives are sentences of this language.
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections import Counter
 from collections.abc import Iterator
@@ -30,12 +29,13 @@ from geswarm.rules.elements import (
     parse_behaviour,
     parse_precondition,
 )
-from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.rules.limits import is_finite
 from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _TOKEN = re.compile(
-    r'(?P<comment>\#.*)|(?P<string>"(?:[^"\\]|\\.)*")|(?P<word>[\w.+-]+)|(?P<space>\s+)|(?P<other>.)'
+    r'(?P<comment>\#.*)|(?P<string>"(?:[^"\\]|\\.)*"?)|(?P<word>[\w.+-]+)|(?P<space>\s+)|(?P<other>.)'
 )
 _KEYWORDS = frozenset({"name", "origin", "rule", "if", "and", "while", "or", "do"})
 _STAGE = {"rule": 0, "if": 1, "and": 1, "while": 2, "or": 2, "do": 3}
@@ -187,7 +187,7 @@ class _Parser:
             self.pending.append(phrase.body)
         elif phrase.keyword == "":
             expected = "if, while, do or rule" if self.drafts else "name, origin or rule"
-            self.report(phrase.line, f"expected {expected}, got {phrase.body.strip()!r}")
+            self.report(phrase.line, f"expected {expected}, got {shown(phrase.body.strip())}")
         elif phrase.keyword in ("name", "origin"):
             self.take_header(phrase)
         elif phrase.keyword == "rule":
@@ -219,7 +219,7 @@ class _Parser:
         if word == "off":
             self.drafts[-1].enabled = False
         elif word:
-            self.report(phrase.line, f"expected if, while, do or off, got {word!r}")
+            self.report(phrase.line, f"expected if, while, do or off, got {shown(word)}")
 
     def take_element(self, phrase: _Phrase, draft: _Draft) -> None:
         draft.comment += self.pending + phrase.comments
@@ -260,7 +260,8 @@ def _string(text: str) -> str:
     except ValueError:
         value = None
     if not isinstance(value, str):
-        raise ElementError(f"expected a text in double quotes, got {text or 'nothing'}")
+        given = shown(text) if text else "nothing"
+        raise ElementError(f"expected a text in double quotes, got {given}")
     return value
 
 
@@ -272,7 +273,7 @@ def _origin(text: str) -> Origin:
         if match is None or match[1] not in _ORIGIN_TYPES:
             raise ElementError(
                 'expected preset "...", run "...", generation N or fitness X, '
-                f"separated by commas, got {text[at:]!r}"
+                f"separated by commas, got {shown(text[at:])}"
             )
         key, value = match.groups()
         parts[key] = _string(value) if _ORIGIN_TYPES[key] is str else _number(key, value)
@@ -284,7 +285,7 @@ def _number(key: str, text: str) -> float:
     try:
         value: float = _ORIGIN_TYPES[key](text)
     except ValueError:
-        raise ElementError(f"{key} must be a number, got {text!r}") from None
-    if not math.isfinite(value):
-        raise ElementError(f"{key} must be a finite number, got {text!r}")
+        raise ElementError(f"{key} must be a number, got {shown(text)}") from None
+    if not is_finite(value):
+        raise ElementError(f"{key} must be a finite number, got {shown(text)}")
     return value

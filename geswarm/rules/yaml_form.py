@@ -25,13 +25,14 @@ from geswarm.rules.elements import (
     parse_behaviour,
     parse_precondition,
 )
-from geswarm.rules.findings import Finding, Place, RuleSetError
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.rules.limits import is_finite
 from geswarm.rules.model import Origin, Rule, RuleSet
 from geswarm.rules.names import unknown_name
+from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA = 1
-MAX_CHARACTERS = 1_000_000
 
 _TOP_KEYS = ("schema", "name", "comment", "origin", "rules")
 _RULE_KEYS = ("comment", "enabled", "if", "while", "do")
@@ -132,19 +133,17 @@ class _Reader:
         self.findings.append(Finding(Place(self.source, line, self.rule, element), message))
 
     def read(self, text: str) -> RuleSet | None:
-        if len(text) > MAX_CHARACTERS:
-            self.report(None, f"expected at most {MAX_CHARACTERS} characters, got {len(text)}")
-            return None
         try:
-            root = yaml.compose(text, Loader=yaml.SafeLoader)
-        except (yaml.YAMLError, RecursionError) as error:
-            self.report_syntax(error)
+            root = compose(text)
+        except YamlError as error:
+            self.findings.append(Finding(Place(self.source, error.line), str(error)))
             return None
         parts = self.mapping(root, "a rule set", _TOP_KEYS)
         if parts is None:
             return None
-        if "schema" in parts and self.scalar(parts["schema"], int, "schema") not in (SCHEMA, None):
-            self.report(parts["schema"], f"expected schema {SCHEMA}", "schema")
+        schema = self.scalar(parts.get("schema"), int, "schema")
+        if schema not in (SCHEMA, None):
+            self.report(parts["schema"], f"expected schema {SCHEMA}, got {schema}", "schema")
         if "rules" not in parts:
             self.report(root, "expected rules: with a list of rules")
         rules = []
@@ -158,12 +157,6 @@ class _Reader:
             comment=self.scalar(parts.get("comment"), str, "comment") or "",
             origin=self.read_origin(parts.get("origin")),
         )
-
-    def report_syntax(self, error: Exception) -> None:
-        mark = getattr(error, "problem_mark", None)
-        problem = getattr(error, "problem", None) or "it is nested too deeply or not text"
-        line = mark.line + 1 if mark else 1
-        self.findings.append(Finding(Place(self.source, line), f"not valid YAML: {problem}"))
 
     def read_origin(self, node: yaml.Node | None) -> Origin:
         parts = self.mapping(node, "origin", tuple(_ORIGIN_KEYS)) if node else None
@@ -208,8 +201,10 @@ class _Reader:
             return None
         parts: dict[str, yaml.Node] = {}
         for key, value in node.value:
-            name = str(key.value)
-            if name not in known:
+            name = key.value
+            if not isinstance(name, str):
+                self.report(key, "expected text as key")
+            elif name not in known:
                 self.report(key, unknown_name("key", name, known))
             elif name in parts:
                 self.report(key, f"{name} is given twice")
@@ -233,13 +228,17 @@ class _Reader:
         value = None
         if isinstance(node, yaml.ScalarNode):
             try:
-                value = yaml.SafeLoader("").construct_object(node)
-            except (yaml.YAMLError, ValueError):
+                value = value_of(node)
+            except YamlError:
                 value = None
-        if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        if (
+            not isinstance(value, kind)
+            or (isinstance(value, bool) and kind is not bool)
+            or (isinstance(value, int | float) and not is_finite(value))
+        ):
             wanted = {str: "text", bool: "true or false", int: "a whole number"}
             expected = wanted.get(kind, "a number") if isinstance(kind, type) else "a number"
             given = node.value if isinstance(node, yaml.ScalarNode) else "a list or mapping"
-            self.report(node, f"expected {expected}, got {given!r}", what)
+            self.report(node, f"expected {expected}, got {shown(given)}", what)
             return None
         return value

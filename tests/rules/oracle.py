@@ -51,6 +51,17 @@ def _done(action, now):
     return behaviour, others | {action.state} if action.value else others, restarted
 
 
+def effects(rule_set, percepts, behaviour, states):
+    """`outcomes` by what a robot comes to: where none is held, dropping an object does nothing."""
+    found = defaultdict(Fraction)
+    for (after, true_states, restarted), p in outcomes(
+        rule_set, percepts, behaviour, states
+    ).items():
+        left = true_states if percepts["HAS_OBJECT"] else true_states - {"DROP_OBJECT"}
+        found[after, left, restarted] += p
+    return dict(found)
+
+
 def reachable(rule_set):
     """All situations (percepts, behaviour, true states) that a run can come to, by search."""
     found, waiting = [], [(False, "RANDOM_WALK", frozenset({"WANT_OBJECT"}))]
@@ -73,7 +84,7 @@ def reachable(rule_set):
 
 
 def differs(a, b):
-    """Whether two rule sets decide differently in a situation that a run under `a` can come to.
+    """Whether two rule sets act differently in a situation that a run under `a` can come to.
 
     From the control tables, which other tests hold against `outcomes`: enumeration takes too long.
     """
@@ -86,7 +97,10 @@ def differs(a, b):
         seen.add(body)
         for percepts in (4, 5, 6) if holding else (0, 1, 2):
             row = percepts * 12 + inner
-            if np.abs(one[row] - two[row]).max() > 1e-12:
+            difference = (one[row] - two[row]).reshape(3, 2, 4)  # behaviour, DROP_OBJECT, the rest
+            if not holding:
+                difference = difference.sum(axis=1)
+            if np.abs(difference).max() > 1e-12:
                 return True
             for outcome in np.flatnonzero(one[row]):
                 after, states = divmod(int(outcome) // 2, 4)

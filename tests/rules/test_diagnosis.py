@@ -59,6 +59,16 @@ def test_a_sound_rule_set_has_no_findings():
             "hint: rule 5, action 1: no effect: action 3 overrides it",
         ),
         (
+            "rule if HAS_OBJECT == false do p = 0.5, DROP_OBJECT = true",
+            "hint: rule 5: no effect: there is no object to drop whenever it fires",
+        ),
+        (
+            "rule if HAS_OBJECT == false while PHOTOTAXIS do p = 0.5, RANDOM_WALK "
+            "do p = 0.5, DROP_OBJECT = true",
+            "hint: rule 5, action 2: no effect: there is no object to drop whenever this rule "
+            "fires",
+        ),
+        (
             "rule while PHOTOTAXIS or PHOTOTAXIS do p = 0.5, RANDOM_WALK",
             "hint: rule 5, behaviour 2: no effect: the same as behaviour 1",
         ),

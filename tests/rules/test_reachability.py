@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given, settings
 
 from geswarm.rules import FORAGING, ControlTable, Indexing, load_preset
-from geswarm.rules.reachability import Trace, reachable_situations
+from geswarm.rules.reachability import Trace, effective_outcomes, reachable_situations
 from geswarm.sim import World, load_scenario
+from tests.rules.oracle import effects as oracle_effects
 from tests.rules.oracle import reachable
 from tests.strategies import plain_rule_sets
 
@@ -42,12 +43,32 @@ def test_any_rule_set_reaches_what_the_oracle_finds(rule_set):
 
 @settings(max_examples=25, deadline=None)
 @given(plain_rule_sets())
-def test_a_trace_ends_with_the_control_table(rule_set):
+def test_a_trace_ends_with_the_effects_of_the_control_table(rule_set):
     trace = Trace.of(rule_set)
-    table = ControlTable.compile(rule_set).probabilities.reshape(SHAPE)
+    table = ControlTable.compile(rule_set).probabilities.reshape(SHAPE) @ effective_outcomes(
+        FORAGING
+    )
     for at in range(len(trace.rules) + 1):
         whole = trace.before[at] @ trace.after[at]
         np.testing.assert_allclose(whole, table * trace.reachable[:, :, None], atol=1e-14)
+
+
+@settings(max_examples=15, deadline=None)
+@given(plain_rule_sets(max_rules=2))
+def test_a_trace_ends_with_the_effects_that_the_oracle_finds(rule_set):
+    decided = Trace.of(rule_set).decided
+    for percepts, behaviour, states in reachable(rule_set):
+        bits = sum(percepts[name] << bit for bit, name in enumerate(SENSED))
+        inner = sum((name in states) << bit for bit, name in enumerate(STATES))
+        column = FORAGING.behaviour_index[behaviour] * INDEXING.states + inner
+        wanted = np.zeros(INDEXING.outcomes)
+        for (after, true_states, restarted), p in oracle_effects(
+            rule_set, percepts, behaviour, states
+        ).items():
+            states_after = sum((name in true_states) << bit for bit, name in enumerate(STATES))
+            code = FORAGING.behaviour_index[after]
+            wanted[INDEXING.outcome(code, states_after, restarted)] += float(p)
+        np.testing.assert_allclose(decided[bits, column], wanted, atol=1e-12)
 
 
 @settings(max_examples=8, deadline=None)

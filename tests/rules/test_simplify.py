@@ -14,6 +14,7 @@ from geswarm.rules import (
     same_behaviour,
     simplify,
 )
+from tests.rules import oracle
 from tests.rules.oracle import differs, without_pieces
 from tests.rules.test_diagnosis import redundant_rule_sets
 from tests.strategies import documented_rule_sets, plain_rule_sets
@@ -119,10 +120,38 @@ def test_the_first_difference_in_words():
     two = parse_text("rule if ON_NEST == true do p = 0.1, PHOTOTAXIS do p = 1, DROP_OBJECT = true")
     assert str(first_difference(one, two)) == (
         "when in the nest and not holding an object, while walking at random, with WANT_OBJECT "
-        "true: keep walking at random and drop the object (p = 0.75), go to the light and drop the "
-        "object (p = 0.25) - against keep walking at random and drop the object (p = 0.9), go to "
-        "the light and drop the object (p = 0.1)"
+        "true: keep walking at random (p = 0.75), go to the light (p = 0.25) - against keep "
+        "walking at random (p = 0.9), go to the light (p = 0.1)"
     )
+
+
+def test_dropping_what_is_not_held_is_no_difference():
+    """Design, section 2: DROP_OBJECT is false again after the step, carried object or not."""
+    nest = "rule if ON_NEST == true {} do p = 0.5, DROP_OBJECT = true"
+    anywhere, holding = (parse_text(nest.format(more)) for more in ("", "and HAS_OBJECT == true"))
+    empty = parse_text(nest.format("and HAS_OBJECT == false"))
+    assert same_behaviour(anywhere, holding)
+    assert same_behaviour(empty, RuleSet())
+    assert simplify(anywhere) == Simplification(anywhere, ())
+    assert simplify(holding).removed == ("rule 1: precondition HAS_OBJECT == true",)
+    assert simplify(empty).rule_set == RuleSet()
+    difference = first_difference(anywhere, RuleSet())
+    assert difference.situation.startswith("when in the nest and holding an object")
+    assert difference.first == {
+        "keep walking at random": 0.5,
+        "keep walking at random and drop the object": 0.5,
+    }
+
+
+@settings(max_examples=15, deadline=None)
+@given(plain_rule_sets(max_rules=2), plain_rule_sets(max_rules=2))
+def test_same_behaviour_is_the_same_effects_drawn_one_by_one(a, b):
+    for other in (b, simplify(a).rule_set):
+        same = all(
+            oracle.effects(a, *each) == pytest.approx(oracle.effects(other, *each), abs=1e-12)
+            for each in oracle.reachable(a)
+        )
+        assert same_behaviour(a, other) == same
 
 
 def test_a_restarted_walk_is_a_difference():

@@ -1,9 +1,11 @@
 from collections import defaultdict
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 
 from geswarm.rules import RuleSet, RuleSetError, StateMachine, load_preset, parse_text
+from geswarm.sim import World, load_scenario
 from tests import strategies
 from tests.rules import oracle
 
@@ -95,6 +97,39 @@ def test_every_transition_has_a_rule_and_a_way_to_happen(rule_set):
         assert entry.mean_wait == pytest.approx(0.1 / entry.probability)
         assert entry.condition.terms
         assert entry.source != entry.target or entry.effects or entry.restarts
+
+
+@settings(max_examples=8, deadline=None)
+@given(strategies.plain_rule_sets())
+def test_transitions_are_counted_as_robots_are_seen_to_take_them(rule_set):
+    machine = StateMachine.of(rule_set)
+    world = World(load_scenario("flexibility-10"), rule_set, seed=1)
+    seen = np.zeros((12, 12), dtype=int)
+    before = world.state
+    for _ in range(200):
+        world.step()
+        after = world.state
+        columns = [
+            each.behaviour.astype(int) * 4 + each.internal_states for each in (before, after)
+        ]
+        np.add.at(seen, tuple(columns), 1)
+        counted = machine.robots_in_states(after.behaviour, after.internal_states)
+        assert counted.tolist() == [np.sum(columns[1] == each.column) for each in machine.states]
+        before = after
+    taken = machine.times_taken(world.decisions)
+    for (source, target), group in machine.between.items():
+        total = sum(taken[machine.transitions.index(entry)] for entry in group)
+        there = machine.states[source].column, machine.states[target].column
+        assert total == seen[there] or (source == target and total <= seen[there])
+    dropped = sum(taken[at] for at, entry in enumerate(machine.transitions) if entry.effects)
+    assert dropped == before.collected + before.lost
+    assert np.trace(seen) + taken.sum() >= seen.sum()
+
+
+def test_robots_that_the_rules_would_never_lead_there_are_in_no_state():
+    machine = StateMachine.of(load_preset("hand-coded"))
+    behaviour = np.array([0, 0, 1, 2], dtype=np.uint8)
+    assert machine.robots_in_states(behaviour, np.array([1, 0, 1, 1])).tolist() == [1, 1, 1]
 
 
 def test_internal_states_split_behaviours_only_where_they_change():

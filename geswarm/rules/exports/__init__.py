@@ -19,7 +19,7 @@ from geswarm.rules.exports.json_document import format_json_document, machine_to
 from geswarm.rules.exports.latex import format_latex
 from geswarm.rules.exports.mermaid import format_mermaid
 from geswarm.rules.exports.prose import format_english, format_markdown
-from geswarm.rules.exports.svg import format_svg, machine_svg
+from geswarm.rules.exports.svg import brief_svg, format_svg, machine_svg
 from geswarm.rules.model import RuleSet
 from geswarm.rules.text import format_text
 from geswarm.rules.yaml_form import format_yaml
@@ -41,6 +41,7 @@ EXPORTS: dict[str, Callable[[RuleSet], str]] = {
 __all__ = [
     "EXPORTS",
     "AutoMoDe",
+    "brief_svg",
     "format_argos_experiment",
     "format_argos_lua",
     "format_automode",

@@ -23,8 +23,8 @@ _COMMANDS = {
     "-": r"{-}",
     **{character: f"\\{character}" for character in "#$%&_{}"},
 }
-_KNOWN = range(0xA0, 0x180), "–—‘’“”…€"
-"""Beyond ASCII, what pdfLaTeX's T1 fonts have."""
+_KNOWN = {*map(chr, range(0xA0, 0x180)), *"–—‘’“”‚„‹›†‡•…‰€™←↑→↓"} - {*"¸ĦħĸĿŀŉŦŧſ"}
+"""Beyond ASCII, what pdfLaTeX's T1 and TS1 fonts have."""
 
 
 def format_latex(rule_set: RuleSet) -> str:
@@ -41,7 +41,7 @@ def _document(rule_set: RuleSet) -> Iterator[str]:
     yield from _declarations("".join(texts))
     yield r"\begin{document}"
     yield r"\begin{table}"
-    yield r"  \centering"
+    yield r"  \centering\footnotesize\setlength{\tabcolsep}{3pt}"
     yield r"  \begin{tabular}{|l@{\quad}lll|}"
     yield r"    \hline"
     for number, rule in enumerate(rule_set.rules, start=1):
@@ -56,8 +56,7 @@ def _document(rule_set: RuleSet) -> Iterator[str]:
 
 def _declarations(text: str) -> Iterator[str]:
     """Characters that pdfLaTeX does not know are shown by their number instead of stopping it."""
-    block, others = _KNOWN
-    strange = sorted({c for c in text if ord(c) > 126 and ord(c) not in block and c not in others})
+    strange = sorted({character for character in text if ord(character) > 126} - _KNOWN)
     if strange:
         yield r"\ifdefined\DeclareUnicodeCharacter"
         for code in (f"{ord(character):04X}" for character in strange):
@@ -68,7 +67,7 @@ def _declarations(text: str) -> Iterator[str]:
 def _rule(number: int, rule: Rule) -> Iterator[str]:
     off = "" if rule.enabled else r"\textit{(off)} "
     comment = rf"\raggedright {off}{latex_text(rule.comment)}".rstrip()
-    yield rf"    $R_{{{number}}}$: & \multicolumn{{3}}{{p{{0.78\textwidth}}|}}{{{comment}}} \\"
+    yield rf"    $R_{{{number}}}$: & \multicolumn{{3}}{{p{{0.86\textwidth}}|}}{{{comment}}} \\"
     holds = [
         f"$P_{{{_name(entry.name)}}} == {_word(format_boolean(entry.holds))}$"
         for entry in rule.preconditions
@@ -106,7 +105,9 @@ def _number(p: float) -> str:
 
 
 def _name(name: str) -> str:
-    return _word(name.replace("_", r"\_").replace("-", "{-}"))
+    """A name as text: in a formula, its letters would stand apart."""
+    plain = name.replace("_", r"\_").replace("-", "{-}")
+    return rf"\mbox{{\scriptsize\itshape {plain}}}"
 
 
 def _word(word: str) -> str:

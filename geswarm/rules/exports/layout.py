@@ -7,18 +7,19 @@ the end. The layout is deterministic.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from geswarm.rules.state_machine import StateMachine, Transition
+from geswarm.rules.state_machine import State, StateMachine, Transition
 
 Point: TypeAlias = tuple[float, float]
+Lines: TypeAlias = tuple[str, ...]
 
-STATE_HEIGHT = 58.0
 LINE_HEIGHT = 17.0
 LABEL_SIZE, STATE_SIZE = 12.5, 16.0
-_STRETCH, _RADIUS, _LOOP = 1.5, 265.0, 62.0
+_STATE_HEIGHT, _LOOP = 58.0, 62.0
+_MOST_LABELLED, _MOST_NAMES = 24, 4  # transitions of a brief picture; rules in a line of it
 _OUTER_BOW, _INNER_BOW, _INNER_SHARE = 0.17, 0.045, 0.4
 _GAP, _SAMPLES, _ROUNDS = 12.0, 40, 400
 _PADDING = 24.0
@@ -61,8 +62,8 @@ class Arrow:
     Attributes:
         transitions: Their indices in the machine.
         path: Points of the curve from border to border.
-        label: Where the text goes.
-        lines: The text of each transition: condition, rate with rules, effects.
+        label: Where the text goes, if there is any.
+        lines: The text of each transition; empty if the picture has none at its arrows.
     """
 
     source: int
@@ -70,14 +71,36 @@ class Arrow:
     transitions: tuple[int, ...]
     path: tuple[Point, ...]
     label: Box
-    lines: tuple[tuple[str, ...], ...]
+    lines: tuple[Lines, ...]
+
+
+@dataclass(frozen=True)
+class Form:
+    """How much a picture says, and the room that this takes.
+
+    Attributes:
+        state_lines: The text of a state.
+        arrow_lines: The text of an arrow's transitions, as in `Arrow`.
+        radius: Of the oval of states, from its centre up.
+        growth: By how much of it each state beyond the third widens the oval.
+        stretch: Of the oval, sideways.
+        spare: Height that a state leaves free below its text.
+    """
+
+    state_lines: Callable[[State], Lines]
+    arrow_lines: Callable[[StateMachine, Sequence[Transition]], tuple[Lines, ...]]
+    radius: float
+    growth: float
+    stretch: float
+    spare: float
 
 
 @dataclass(frozen=True)
 class Layout:
-    """A picture, laid out: boxes of the states, arrows, and the picture's size."""
+    """A picture, laid out: boxes and text of the states, arrows, and the picture's size."""
 
     states: tuple[Box, ...]
+    state_lines: tuple[Lines, ...]
     arrows: tuple[Arrow, ...]
     width: float
     height: float
@@ -89,50 +112,93 @@ def text_width(text: str, size: float) -> float:
     return ems * size
 
 
-def lay_out(machine: StateMachine) -> Layout:
+def label_lines(machine: StateMachine, transition: Transition) -> Lines:
+    """Condition, rate with the rules behind it, and effects of one transition, a line each."""
+    rate = f"{transition.rate} · {_names(transition.rules)}"
+    return str(transition.condition), rate, *machine.effects(transition)
+
+
+def brief_lines(machine: StateMachine, transitions: Sequence[Transition]) -> tuple[Lines, ...]:
+    """A line for each transition, with probability and rules; none if the machine has many."""
+    if len(machine.transitions) > _MOST_LABELLED:
+        return ()
+    return tuple((_brief_line(entry),) for entry in transitions)
+
+
+def _brief_line(transition: Transition) -> str:
+    rules = transition.rules
+    names = _names(rules) if len(rules) <= _MOST_NAMES else f"{len(rules)} rules"
+    return f"p = {transition.probability:.3g} · {names}"
+
+
+def _names(rules: Sequence[int]) -> str:
+    return " ".join(f"R{number}" for number in rules)
+
+
+FULL = Form(
+    lambda state: (state.label,),
+    lambda machine, entries: tuple(label_lines(machine, entry) for entry in entries),
+    radius=265.0,
+    growth=1 / 3,
+    stretch=1.5,
+    spare=0.0,
+)
+"""All that there is to know, to be printed."""
+
+BRIEF = Form(
+    lambda state: (state.behaviour, *state.marks),
+    brief_lines,
+    radius=170.0,
+    growth=0.22,
+    stretch=1.1,
+    spare=20.0,
+)
+"""Little text, for a small screen that tells the rest on demand."""
+
+
+def lay_out(machine: StateMachine, form: Form = FULL) -> Layout:
     """Place states, arrows and labels so that no label covers a state or another label."""
-    states = _place_states(machine)
+    lines = tuple(map(form.state_lines, machine.states))
+    states = _place_states(lines, form)
     centre = (
         sum(box.x for box in states) / len(states),
         sum(box.y for box in states) / len(states),
     )
-    arrows = [_arrow(machine, states, centre, source, target) for source, target in machine.between]
-    labels = _pushed_apart([arrow.label for arrow in arrows], states)
-    arrows = [replace(arrow, label=box) for arrow, box in zip(arrows, labels, strict=True)]
-    return _at_origin(states, arrows)
+    arrows = [_arrow(machine, form, states, centre, *ends) for ends in machine.between]
+    if any(arrow.lines for arrow in arrows):
+        labels = _pushed_apart([arrow.label for arrow in arrows], states)
+        arrows = [replace(arrow, label=box) for arrow, box in zip(arrows, labels, strict=True)]
+    return _at_origin(states, lines, arrows)
 
 
-def label_lines(machine: StateMachine, transition: Transition) -> tuple[str, ...]:
-    """Condition, rate with the rules behind it, and effects of one transition, a line each."""
-    rules = " ".join(f"R{number}" for number in transition.rules)
-    rate = f"{transition.rate} · {rules}"
-    return str(transition.condition), rate, *machine.effects(transition)
-
-
-def _place_states(machine: StateMachine) -> list[Box]:
+def _place_states(lines: Sequence[Lines], form: Form) -> list[Box]:
     """On an oval, the first at the top, clockwise."""
-    count = len(machine.states)
-    radius = _RADIUS * (1 if count <= 3 else count / 3)
-    if count == 1:
-        radius = 0.0
+    count = len(lines)
+    radius = form.radius * (1 + form.growth * max(0, count - 3)) if count > 1 else 0.0
     boxes = []
-    for at, state in enumerate(machine.states):
+    for at, (first, *others) in enumerate(lines):
         angle = 2 * math.pi * at / count - math.pi / 2
-        width = text_width(state.label, STATE_SIZE) + 44
-        x, y = _STRETCH * radius * math.cos(angle), radius * math.sin(angle)
-        boxes.append(Box(x, y, width, STATE_HEIGHT))
+        wide = [text_width(first, STATE_SIZE), *(text_width(row, LABEL_SIZE) for row in others)]
+        height = _STATE_HEIGHT + LINE_HEIGHT * len(others)
+        x, y = form.stretch * radius * math.cos(angle), radius * math.sin(angle)
+        boxes.append(Box(x, y, max(wide) + 44, height))
     return boxes
 
 
 def _arrow(
-    machine: StateMachine, states: Sequence[Box], centre: Point, source: int, target: int
+    machine: StateMachine,
+    form: Form,
+    states: Sequence[Box],
+    centre: Point,
+    source: int,
+    target: int,
 ) -> Arrow:
     indices = tuple(
         at
         for at, entry in enumerate(machine.transitions)
         if (entry.source, entry.target) == (source, target)
     )
-    lines = tuple(label_lines(machine, machine.transitions[at]) for at in indices)
+    lines = form.arrow_lines(machine, machine.between[source, target])
     if source == target:
         path, away, share = *_loop(states[source], centre), 1.0
     else:
@@ -145,8 +211,10 @@ def _arrow(
     return Arrow(source, target, indices, path, label, lines)
 
 
-def label_extent(lines: Sequence[tuple[str, ...]]) -> Point:
+def label_extent(lines: Sequence[Lines]) -> Point:
     """Width and height of a label."""
+    if not lines:
+        return 0.0, 0.0
     rows = [row for entry in lines for row in entry]
     width = max(text_width(row, LABEL_SIZE) for row in rows)
     return width + 16, len(rows) * LINE_HEIGHT + (len(lines) - 1) * 5 + 8
@@ -204,13 +272,16 @@ def _outside(points: list[Point], start: Box, end: Box) -> tuple[Point, ...]:
 
 
 def _pushed_apart(labels: Sequence[Box], states: Sequence[Box]) -> list[Box]:
-    """Move labels, as little as it takes, until they touch neither each other nor a state."""
+    """Move labels, as little as it takes, until they touch neither each other nor a state.
+
+    One that does not find room between states that way leaves them up or down.
+    """
     boxes = list(labels)
-    for _ in range(_ROUNDS):
+    for turn in range(_ROUNDS):
         moved = False
         for at in range(len(boxes)):
             for state in states:
-                if push := _push(boxes[at], state.grown(6)):
+                if push := _push(boxes[at], state.grown(6), upright=turn > _ROUNDS / 4):
                     boxes[at], moved = boxes[at].moved(*push), True
             for other in range(len(boxes)):
                 if other != at and (push := _push(boxes[at], boxes[other])):
@@ -222,17 +293,23 @@ def _pushed_apart(labels: Sequence[Box], states: Sequence[Box]) -> list[Box]:
     return boxes
 
 
-def _push(box: Box, other: Box) -> Point | None:
-    """The shortest way for one box to leave another alone; None if it already does."""
+def _push(box: Box, other: Box, upright: bool = False) -> Point | None:
+    """The shortest way for one box to leave another alone; None if it already does.
+
+    Args:
+        box: Is moved.
+        other: Stays.
+        upright: Only up or down.
+    """
     dx, dy = (overlap + _GAP for overlap in box.overlap(other))
     if dx <= 1e-6 or dy <= 1e-6:
         return None
-    if dx < dy:
+    if dx < dy and not upright:
         return (math.copysign(dx, box.x - other.x), 0.0)
     return (0.0, math.copysign(dy, box.y - other.y))
 
 
-def _at_origin(states: Sequence[Box], arrows: Sequence[Arrow]) -> Layout:
+def _at_origin(states: Sequence[Box], lines: tuple[Lines, ...], arrows: Sequence[Arrow]) -> Layout:
     """Everything moved so that the picture begins at (0, 0) with some padding."""
     boxes = [*states, *(arrow.label for arrow in arrows)]
     points = [point for arrow in arrows for point in arrow.path]
@@ -242,6 +319,7 @@ def _at_origin(states: Sequence[Box], arrows: Sequence[Arrow]) -> Layout:
     south = max([box.y + box.height / 2 for box in boxes] + [y for _, y in points]) + _PADDING
     return Layout(
         tuple(box.moved(-west, -north) for box in states),
+        lines,
         tuple(
             replace(
                 arrow,

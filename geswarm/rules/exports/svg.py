@@ -12,11 +12,14 @@ from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from geswarm.rules.exports.layout import (
+    BRIEF,
+    FULL,
     LABEL_SIZE,
     LINE_HEIGHT,
     STATE_SIZE,
     Arrow,
     Box,
+    Form,
     Layout,
     Point,
     lay_out,
@@ -54,7 +57,7 @@ def format_svg(rule_set: RuleSet) -> str:
 
 def machine_svg(machine: StateMachine) -> str:
     """A standalone SVG document."""
-    layout = lay_out(machine)
+    layout = lay_out(machine, FULL)
     title = machine.name or "State machine"
     width = max(layout.width, text_width(_LEGEND, 12) + 48, text_width(title, 22) + 48)
     height = layout.height + _HEADER + _FOOTER
@@ -68,9 +71,27 @@ def machine_svg(machine: StateMachine) -> str:
         f"{escape(title)}</text>",
         f'<g transform="translate({shift:.1f} {_HEADER:.0f})">',
         *_arrows(machine, layout),
-        *_states(machine, layout),
+        *_states(machine, layout, FULL),
         "</g>",
         f'<text x="24" y="{height - 16:.0f}" font-size="12" fill="{_MUTED}">{_LEGEND}</text>',
+        "</svg>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def brief_svg(machine: StateMachine) -> str:
+    """A smaller drawing with little text, or none at the arrows if there are many.
+
+    It is for a page that has a title and tells the rest.
+    """
+    layout = lay_out(machine, BRIEF)
+    size = f"{layout.width:.0f} {layout.height:.0f}"
+    width, height = size.split()
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" width="{width}" '
+        f'height="{height}" role="group" aria-label="State machine">',
+        *_arrows(machine, layout),
+        *_states(machine, layout, BRIEF),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
@@ -83,23 +104,33 @@ def _colour(machine: StateMachine, state: int) -> tuple[str, str]:
     return BEHAVIOUR_COLOURS[at], _TINTS[at]
 
 
-def _states(machine: StateMachine, layout: Layout) -> Iterator[str]:
+def _states(machine: StateMachine, layout: Layout, form: Form) -> Iterator[str]:
     for at, (state, box) in enumerate(zip(machine.states, layout.states, strict=True)):
         strong, pale = _colour(machine, at)
         yield f'<g class="state" data-state="{at}">'
         if state.initial:
             yield f"<title>{escape(state.label)}: robots start here</title>"
-            yield _rectangle(box.grown(5), "none", strong, 1.5, 33)
-        yield _rectangle(box, pale, strong, 3, 29)
+            yield _rectangle("initial", box.grown(5), "none", strong, 1.5, 33)
+        yield _rectangle("body", box, pale, strong, 3, 29)
+        first, *others = layout.state_lines[at]
+        y = box.y + 5.5 - form.spare / 2 - LINE_HEIGHT * len(others) / 2
+        middle = f'x="{box.x:.1f}" text-anchor="middle"'
         yield (
-            f'<text x="{box.x:.1f}" y="{box.y + 5.5:.1f}" font-size="{STATE_SIZE}" '
-            f'font-weight="700" text-anchor="middle" fill="{_INK}">{escape(state.label)}</text></g>'
+            f'<text {middle} y="{y:.1f}" font-size="{STATE_SIZE}" '
+            f'font-weight="700" fill="{_INK}">{escape(first)}</text>'
         )
+        for row in others:
+            y += LINE_HEIGHT
+            yield (
+                f'<text {middle} y="{y:.1f}" font-size="{LABEL_SIZE}" '
+                f'fill="{_MUTED}">{escape(row)}</text>'
+            )
+        yield "</g>"
 
 
-def _rectangle(box: Box, fill: str, stroke: str, width: float, radius: float) -> str:
+def _rectangle(name: str, box: Box, fill: str, stroke: str, width: float, radius: float) -> str:
     return (
-        f'<rect x="{box.x - box.width / 2:.1f}" y="{box.y - box.height / 2:.1f}" '
+        f'<rect class="{name}" x="{box.x - box.width / 2:.1f}" y="{box.y - box.height / 2:.1f}" '
         f'width="{box.width:.1f}" height="{box.height:.1f}" rx="{radius}" '
         f'fill="{fill}" stroke="{stroke}" stroke-width="{width}"/>'
     )
@@ -121,7 +152,8 @@ def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
         )
         yield f'<path d="{_head(arrow.path)}" fill="{strong}"/></g>'
     for arrow in layout.arrows:
-        yield from _label(machine, arrow)
+        if arrow.lines:
+            yield from _label(machine, arrow)
 
 
 def _path(points: tuple[Point, ...]) -> str:
@@ -141,9 +173,9 @@ def _head(points: tuple[Point, ...]) -> str:
 
 def _label(machine: StateMachine, arrow: Arrow) -> Iterator[str]:
     box = arrow.label
-    yield _rectangle(box, _PAPER, "none", 0, 6)
+    yield _rectangle("paper", box, _PAPER, "none", 0, 6)
     bar = Box(box.x - box.width / 2, box.y, 3, box.height - 4)
-    yield _rectangle(bar, _colour(machine, arrow.source)[0], "none", 0, 1.5)
+    yield _rectangle("bar", bar, _colour(machine, arrow.source)[0], "none", 0, 1.5)
     y = box.y - box.height / 2 + 4
     for at, rows in zip(arrow.transitions, arrow.lines, strict=True):
         transition = machine.transitions[at]
