@@ -1,4 +1,32 @@
-"""The simulator: scenarios, batch evaluation and the interactive world."""
+"""The simulator: scenarios, batch evaluation and the interactive world.
+
+Many runs to their end, each with random numbers of its own:
+
+>>> from geswarm.rules import ControlTable, StateMachine, load_rule_set
+>>> from geswarm.sim import Simulation, World, evaluate, load_scenario
+>>> evo8, hand_coded = load_rule_set("evo8"), load_rule_set("hand-coded")
+>>> short = load_scenario("paper").with_changes(duration=1000.0)
+>>> runs = [Simulation(table, seed=1, replicate=n) for table in (0, 1) for n in range(20)]
+>>> result = evaluate([ControlTable.compile(rules) for rules in (evo8, hand_coded)], short, runs)
+>>> first, second = result.collected.reshape(2, 20)
+>>> bool(first.mean() > second.mean())
+True
+
+One run to look into; new rules take over while it goes on:
+
+>>> world = World(short, evo8, seed=1)
+>>> world.step(3000)
+>>> world.time, world.state.x.shape
+(300.0, (4,))
+>>> machine = StateMachine.of(evo8)
+>>> taken = machine.times_taken(world.decisions)
+>>> print(machine.describe(machine.transitions[taken.argmax()]))
+PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
+>>> world.set_rules(hand_coded)
+>>> world.step(3000)
+>>> world.time
+600.0
+"""
 
 from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, evaluate
 from geswarm.sim.footbot import CONTROL_STEP

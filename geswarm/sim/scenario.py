@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from geswarm.rules.findings import Finding, Place
+from geswarm.rules.model import clean_line
 from geswarm.rules.names import unknown_name
 from geswarm.sim import footbot, scenario_file
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
@@ -108,7 +109,9 @@ class Scenario:
                 tree.setdefault("arena", {})[key] = value
             else:
                 tree[key] = list(value) if key == "random_walk" else value
-        return f"# {self.name}\n" + yaml.safe_dump(tree, sort_keys=False, default_flow_style=None)
+        return f"# {clean_line(self.name)}\n" + yaml.safe_dump(
+            tree, sort_keys=False, default_flow_style=None
+        )
 
 
 def scenario_names() -> list[str]:

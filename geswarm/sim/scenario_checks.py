@@ -44,6 +44,9 @@ class Parameter:
         return f"expected {low} and at most {self.high:g}{self.unit}, got {_shown(value)}"
 
 
+_LEAST = 1e-6
+"""What the kernels divide by must not be so small that single precision has no inverse of it."""
+
 PARAMETERS: Mapping[str, Parameter] = {
     "robots": Parameter(int, 1, 200_000),
     "objects": Parameter(int, 1, 200_000),
@@ -51,16 +54,16 @@ PARAMETERS: Mapping[str, Parameter] = {
     "width": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "length": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "nest": Parameter(float, 0, 1e4, " m", above=True),
-    "source": Parameter(float, 0, 1e4, " m", above=True),
+    "source": Parameter(float, _LEAST, 1e4, " m"),
     "light": Parameter(float, 0, 1e6, " m"),
     "zone_miss": Parameter(float, 0, 1),
-    "grip_reach": Parameter(float, 0, 1e4, " m", above=True),
+    "grip_reach": Parameter(float, _LEAST, 1e4, " m"),
     "object_margin": Parameter(float, 0, 1e4, " m"),
     "random_walk": Parameter(float, 0, 1e6, " s", above=True),
     "max_speed": Parameter(float, 0, 10, " m/s", above=True),
     "turn_gain": Parameter(float, 0, 1e3, " 1/s"),
-    "proximity_range": Parameter(float, 0, 1e4, " m", above=True),
-    "rab_range": Parameter(float, 0, 1e4, " m", above=True),
+    "proximity_range": Parameter(float, _LEAST, 1e4, " m"),
+    "rab_range": Parameter(float, _LEAST, 1e4, " m"),
     "avoidance_gain": Parameter(float, 0, 1e3),
 }
 """What each parameter may be; `random_walk` is a pair of these."""

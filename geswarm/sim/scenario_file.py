@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from geswarm.rules.findings import Finding, Place
+from geswarm.rules.findings import Finding, Place, shown
+from geswarm.rules.limits import read_beginning
+from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
 
 _FOLDER = Path(__file__).parent / "scenarios"
@@ -89,7 +91,7 @@ class _Reader:
             pass
         near = difflib.get_close_matches(name_or_path, names, n=1, cutoff=0.5)
         hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}"
-        self.wrong(place, f"there is no scenario or file {name_or_path!r}; {hint}")
+        self.wrong(place, f"there is no scenario or file {shown(name_or_path)}; {hint}")
         return None
 
     def file(self, path: Path, place: Place, trail: tuple[Path, ...]) -> dict[str, _Given]:
@@ -99,7 +101,7 @@ class _Reader:
             self.wrong(place, f"scenarios extend each other in a circle: {chain}")
             return {}
         try:
-            text = path.read_text(encoding="utf-8")
+            text = read_beginning(path)
         except OSError as error:
             self.wrong(place, f"cannot read {path}: {error.strerror}")
             return {}
@@ -130,34 +132,25 @@ class _Reader:
     def _own(self, text: str, source: str) -> dict[str, _Given] | None:
         """What this text gives, flat (`arena` resolved), or None if it is not such a file."""
         try:
-            loader = yaml.SafeLoader(text)
-            node = loader.get_single_node()
-        except yaml.YAMLError as error:
-            self.wrong(*_syntax_error(error, source))
-            return None
-        except RecursionError:
-            self.wrong(Place(source), "nested too deeply")
+            node = compose(text)
+        except YamlError as error:
+            self.wrong(Place(source, error.line), str(error))
             return None
         if not isinstance(node, yaml.MappingNode):
             self.wrong(Place(source), "expected lines such as `extends: paper` and `robots: 8`")
             return None
-        own = self._mapping(loader, node, source, _TOP, "")
+        own = self._mapping(node, source, _TOP, "")
         arena = own.pop("arena", None)
         if arena is not None:
             arena_node = next(value for key, value in node.value if key.value == "arena")
             if isinstance(arena_node, yaml.MappingNode):
-                own |= self._mapping(loader, arena_node, source, _ARENA, "arena: ")
+                own |= self._mapping(arena_node, source, _ARENA, "arena: ")
             else:
                 self.wrong(arena.place, "expected {width: ..., length: ...}")
         return own
 
     def _mapping(
-        self,
-        loader: yaml.SafeLoader,
-        node: yaml.MappingNode,
-        source: str,
-        known: tuple[str, ...],
-        inside: str,
+        self, node: yaml.MappingNode, source: str, known: tuple[str, ...], inside: str
     ) -> dict[str, _Given]:
         """The known keys of a mapping."""
         own: dict[str, _Given] = {}
@@ -172,9 +165,9 @@ class _Reader:
                 self.wrong(place, f"given twice, first in line {own[key].place.line}")
                 continue
             try:
-                own[key] = _Given(loader.construct_object(value_node, deep=True), place)
-            except (yaml.YAMLError, ValueError, RecursionError):
-                self.wrong(place, "cannot be understood")
+                own[key] = _Given(value_of(value_node), place)
+            except YamlError as error:
+                self.wrong(place, str(error))
         return own
 
 
@@ -191,12 +184,4 @@ def _unknown(key: str | None, known: tuple[str, ...], inside: str) -> str:
         places |= {name: written(name) for name in _ARENA}
     near = difflib.get_close_matches(str(key).lower(), places, n=1, cutoff=0.5)
     hint = f"did you mean {places[near[0]]}?" if near else f"known are {', '.join(known)}"
-    return f"unknown key {inside}{key}; {hint}"
-
-
-def _syntax_error(error: yaml.YAMLError, source: str) -> tuple[Place, str]:
-    """Place and message of a YAML syntax error."""
-    if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark is not None:
-        problem = error.problem or error.context or "syntax error"
-        return Place(source, error.problem_mark.line + 1), f"not valid YAML: {problem}"
-    return Place(source), f"not valid YAML: {str(error).splitlines()[0]}"
+    return f"unknown key {inside}{shown(key)}; {hint}"

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.rules.control_table import Indexing
 from geswarm.rules.model import RuleSet
+from geswarm.rules.vocabulary import FORAGING
 from geswarm.sim import footbot
 from geswarm.sim.compiled import run_world, start_world
 from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
@@ -17,6 +19,8 @@ from geswarm.sim.scenario import Scenario
 
 NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")
 """Parameters of a scenario that a run cannot go on with if they change."""
+
+_INDEXING = Indexing.of(FORAGING)
 
 
 @dataclass(frozen=True)
@@ -128,6 +132,15 @@ class World:
         return int(self._tally[LOST])
 
     @property
+    def decisions(self) -> npt.NDArray[np.int64]:
+        """How often robots came from each situation to each outcome since the rules were set.
+
+        What `ControlTable.probabilities` says of them, counted; a read-only copy, shape
+        (situations, outcomes), numbered by `geswarm.rules.Indexing`.
+        """
+        return _frozen(self._decisions)
+
+    @property
     def state(self) -> WorldState:
         """Everything there is to see, as it is now."""
         robots = self._robots
@@ -166,6 +179,7 @@ class World:
             self._tally,
             self._rules,
             self._actions,
+            self._decisions,
             self._steps,
             n,
         )
@@ -179,6 +193,7 @@ class World:
         """
         self._rules, self._actions = encode_rules(rule_set)
         self._rule_set = rule_set
+        self._decisions = np.zeros((_INDEXING.situations, _INDEXING.outcomes), dtype=np.int64)
         self._robots["last_rule"] = -1
 
     def set_scenario(self, scenario: Scenario) -> bool:
@@ -223,6 +238,7 @@ class World:
         self._tally[:] = 0
         self._rules["fired"] = 0
         self._actions["fired"] = 0
+        self._decisions[:] = 0
         start_world(self._physics, *self._room[:4], seed, 0, 0)
 
     def move_robot(self, i: int, x: float, y: float) -> None:

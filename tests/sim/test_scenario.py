@@ -88,8 +88,8 @@ def test_all_problems_at_once_with_their_places():
         "extends: paper\nrobot: 7\nzone_miss: 1.5\narena:\n  width: wide\n  depth: 3\n"
         "random_walk: [15, 5]\nnest: .nan\nobjects: 2.5\nlight: 1e2\nduration: true\n"
     ) == [
-        "mine:2: unknown key robot; did you mean robots?",
-        "mine:6: unknown key arena: depth; did you mean width?",
+        "mine:2: unknown key 'robot'; did you mean robots?",
+        "mine:6: unknown key arena: 'depth'; did you mean width?",
         "mine:9: objects: expected a whole number, got 2.5",
         "mine:11: duration: expected a number, got true",
         "mine:5: arena: width: expected a number, got the text 'wide'",
@@ -120,9 +120,9 @@ def test_all_problems_at_once_with_their_places():
         ("random_walk: [0, 5]", "mine:1: random_walk: expected more than 0"),
         ("random_walk: [a, 5]", "mine:1: random_walk: expected a number, got the text 'a'"),
         ("arena: 4", "mine:1: arena: expected {width: ..., length: ...}"),
-        ("width: 4", "mine:1: unknown key width; did you mean arena: width?"),
+        ("width: 4", "mine:1: unknown key 'width'; did you mean arena: width?"),
         ("robots: 4\nrobots: 5", "mine:2: robots: given twice, first in line 1"),
-        ("name: x\n", "mine:1: unknown key name; "),
+        ("name: x\n", "mine:1: unknown key 'name'; "),
         ("[1]: 4", "mine:1: unknown key None; "),
         ("extends: papper", "mine:1: extends: there is no scenario or file 'papper'; did you mean"),
         ("extends: [1]", "mine:1: extends: expected the name or path of a scenario"),
@@ -162,7 +162,7 @@ def test_a_mistake_in_the_base_is_reported_there(tmp_path):
     with pytest.raises(ScenarioError) as caught:
         load_scenario(tmp_path / "mine.yaml")
     first, second = (str(finding) for finding in caught.value.findings)
-    assert "mine.yaml:2: unknown key length" in first
+    assert "mine.yaml:2: unknown key 'length'" in first
     assert "base.yaml:2: light: expected a number" in second
 
 

@@ -6,6 +6,7 @@ import pytest
 from geswarm.rules import (
     FORAGING,
     BehaviourChange,
+    ControlTable,
     Rule,
     RuleSet,
     RuleSetError,
@@ -126,6 +127,34 @@ def test_what_fired():
     assert seen.action_counts[1] == (seen.rule_counts[1],)
     assert seen.rule_counts[2] == 0
     assert set(seen.last_rule.tolist()) <= {0, 1}
+
+
+@pytest.mark.parametrize("rule_set", [EVO8, HAND_CODED])
+def test_decisions_are_drawn_as_the_control_table_says(rule_set):
+    world = World(PAPER, rule_set, 1)
+    for steps in (1, 20_000):
+        world.step(steps)
+    decisions, table = world.decisions, ControlTable.compile(rule_set).probabilities
+    assert decisions.shape == table.shape
+    assert decisions.sum() == 4 * 20_001
+    assert not decisions[table == 0].any()
+    tried = decisions.sum(axis=1, keepdims=True)
+    spread = np.sqrt(tried * table * (1 - table))
+    assert np.all(np.abs(decisions - tried * table) <= 4.5 * spread + 1e-6)
+
+
+def test_decisions_are_counted_since_the_rules_were_set():
+    world = World(PAPER, EVO8, 1)
+    world.step(100)
+    kept = world.decisions
+    world.set_rules(HAND_CODED)
+    assert not world.decisions.any()
+    assert kept.sum() == 400
+    world.step(10)
+    world.reset()
+    assert not world.decisions.any()
+    with pytest.raises(ValueError, match="read-only"):
+        kept[0, 0] = 1
 
 
 def test_no_rules_at_all():

@@ -19,6 +19,7 @@ from geswarm.sim.kernels.jit import inlined
 from geswarm.sim.kernels.neighbours import insert_object, nearest_object, remove_object
 from geswarm.sim.kernels.placement import place_object
 from geswarm.sim.kernels.state import (
+    BEHAVIOURS,
     COLLECTED,
     DROP_OBJECT,
     HAS_OBJECT,
@@ -74,10 +75,11 @@ def decide_by_table(physics: Physics, table: Any, slot_bits: int, robot: Any, st
 
 
 @inlined
-def decide_by_rules(rules: Any, actions: Any, robot: Any, step: int) -> bool:
-    """Interpret the rules in order; True if a random walk starts afresh."""
+def decide_by_rules(rules: Any, actions: Any, decisions: np.ndarray, robot: Any, step: int) -> bool:
+    """Interpret the rules in order and count the outcome; True if a random walk starts afresh."""
     behaviour = np.int64(robot.behaviour)
     states = np.int64(robot.states)
+    situation = (np.int64(robot.percepts) * BEHAVIOURS + behaviour) * STATES + states
     restart = False
     for r in range(len(rules)):
         rule = rules[r]
@@ -100,6 +102,7 @@ def decide_by_rules(rules: Any, actions: Any, robot: Any, step: int) -> bool:
             rule.fired += 1
     robot.behaviour = behaviour
     robot.states = states
+    decisions[situation, (behaviour * STATES + states) * 2 + restart] += 1
     return restart
 
 

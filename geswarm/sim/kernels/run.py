@@ -53,6 +53,7 @@ def build_run_world(version: int) -> Any:
         tally: Any,
         rules: Any,
         actions: Any,
+        decisions: Any,
         first: int,
         steps: int,
     ) -> int:
@@ -63,7 +64,7 @@ def build_run_world(version: int) -> Any:
             for i in range(len(robots)):
                 robot = robots[i]
                 sense(physics, robot, step)
-                if decide_by_rules(rules, actions, robot, step):
+                if decide_by_rules(rules, actions, decisions, robot, step):
                     restart_walk(physics, robot, step, WALK_HEADING, WALK_TIME)
                 act_on_objects(physics, objects, heads, following, tally, robot, step)
                 move(physics, robot, step)
