@@ -26,18 +26,15 @@ from geswarm.ge import (
     Engine,
     GenerationRecord,
     Injection,
-    NotASentenceError,
     Result,
     RunStore,
     Settings,
     SettingsChange,
-    SettingsError,
     Steering,
     StoredIndividual,
     StoredSteering,
     StoreError,
     evolve,
-    genome_of,
 )
 from geswarm.population import Member, Population
 from geswarm.rules import (
@@ -45,12 +42,12 @@ from geswarm.rules import (
     Origin,
     Rule,
     RuleSet,
-    RuleSetError,
     format_text,
     parse_text,
+    plain_yaml,
     save_rule_set,
 )
-from geswarm.sim import Scenario, ScenarioError, Simulation, evaluate, parse_scenario
+from geswarm.sim import Scenario, Simulation, evaluate, parse_scenario
 
 __all__ = [
     "Composition",
@@ -123,18 +120,16 @@ def evaluate_rule_sets(
         EvaluationStopped: `stop` returned True.
     """
     tables = [ControlTable.compile(rule_set) for rule_set in rule_sets]
-    todo = [
-        Simulation(table=table, seed=seed, replicate=run)
-        for table in range(len(tables))
-        for run in range(runs)
-    ]
-    counts = []
-    for first in range(0, len(todo), _RUNS_PER_CALL):
-        part = todo[first : first + _RUNS_PER_CALL]
+    total, counts = len(tables) * runs, []
+    for first in range(0, total, _RUNS_PER_CALL):
+        part = [
+            Simulation(table=at // runs, seed=seed, replicate=at % runs)
+            for at in range(first, min(first + _RUNS_PER_CALL, total))
+        ]
         result = evaluate(tables, scenario, part, workers=workers, stop=stop)
         counts.append(np.stack([result.collected, result.lost]))
         if on_progress:
-            on_progress(first + len(part), len(todo))
+            on_progress(first + len(part), total)
     collected, lost = np.concatenate(counts, axis=1).reshape(2, len(tables), runs)
     return [Evaluation(*pair) for pair in zip(collected, lost, strict=True)]
 
@@ -184,21 +179,23 @@ class RunConfig:
             RunConfigError: It is something else.
         """
         try:
-            document = yaml.safe_load(text)
-            scenario_text = yaml.safe_dump(document["scenario"])
-            return cls(
-                scenario=parse_scenario(scenario_text, str(document["scenario_name"])),
-                settings=Settings(**document["evolution"]),
-                seed=int(document["seed"]),
-                frozen=parse_text(document["frozen"]).rules if document["frozen"] else (),
-            )
-        except (
-            *(KeyError, TypeError, ValueError),
-            *(ScenarioError, SettingsError, RuleSetError),
-        ) as error:
+            match plain_yaml.load(text):
+                case {
+                    "seed": int(seed),
+                    "evolution": dict(settings),
+                    "frozen": str(frozen),
+                    "scenario_name": str(name),
+                    "scenario": dict(scenario),
+                } if 0 <= seed < 2**63:
+                    return cls(
+                        scenario=parse_scenario(yaml.safe_dump(scenario), name),
+                        settings=Settings(**settings),
+                        seed=seed,
+                        frozen=parse_text(frozen).rules if frozen else (),
+                    )
+            raise ValueError("expected seed, evolution, frozen, scenario_name and scenario")
+        except (TypeError, ValueError) as error:  # the former for a setting of another name
             raise RunConfigError(f"not the configuration of a run: {error}") from error
-        except yaml.YAMLError as error:
-            raise RunConfigError("not the configuration of a run: not valid YAML") from error
 
 
 class EvolutionRun:
@@ -242,7 +239,26 @@ class EvolutionRun:
         Raises:
             StoreError: There is no run, or it cannot be used.
         """
-        store = RunStore.open(directory)
+        run = cls._open(directory)
+        try:
+            run._save_best()  # a run killed before it wrote best.yaml has it now
+        except StoreError:
+            run.close()
+            raise
+        return run
+
+    @classmethod
+    def read(cls, directory: str | Path) -> EvolutionRun:
+        """Look at a run, which another process may continue meanwhile; it cannot be run.
+
+        Raises:
+            StoreError: There is no run, or it cannot be used.
+        """
+        return cls._open(directory, read_only=True)
+
+    @classmethod
+    def _open(cls, directory: str | Path, read_only: bool = False) -> EvolutionRun:
+        store = RunStore.open(directory, read_only)
         try:
             config = RunConfig.from_yaml(store.config)
             state = store.checkpoint()
@@ -255,12 +271,10 @@ class EvolutionRun:
             for change in store.steering():
                 if change.generation > engine.generation:  # of the generation that was lost
                     change.what.apply(engine)
+            return cls(config, store, engine)
         except (ValueError, StoreError) as error:
             store.close()
             raise StoreError(f"{directory}: {error}") from error
-        run = cls(config, store, engine)
-        run._save_best()  # a run killed before it wrote best.yaml has it now
-        return run
 
     @property
     def finished(self) -> bool:
@@ -292,6 +306,10 @@ class EvolutionRun:
         best = self._store.best()
         return self._store.ancestors((best.generation, best.key)) if best else []
 
+    def bred(self, generation: int) -> list[StoredIndividual]:
+        """Who was bred for a generation, with the fitness of then; the injected come last."""
+        return self._store.individuals(generation)
+
     def inject(self, rule_set: RuleSet) -> None:
         """Have a rule set enter the population with the next generation that is bred.
 
@@ -300,12 +318,7 @@ class EvolutionRun:
         Raises:
             InjectionError: The grammar does not derive it; says why.
         """
-        phenotype = self.config.composition.phenotype(rule_set)
-        try:
-            genome_of(self._engine.grammar, phenotype)
-        except NotASentenceError as error:
-            raise InjectionError(f"the grammar does not derive these rules: {error}") from error
-        self._requests.append(Injection(phenotype))
+        self._requests.append(Injection(self.config.composition.phenotype(rule_set)))
 
     def steer(self, **changes: float) -> None:
         """Change `crossover`, `mutation`, `scaling` or `tournament` from the next generation on.

@@ -14,7 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm import __version__
-from geswarm.ge import Grammar, Individual, Stopped, geswarm_grammar
+from geswarm.ge import (
+    Grammar,
+    Individual,
+    NotASentenceError,
+    Stopped,
+    genome_of,
+    geswarm_grammar,
+)
 from geswarm.rules import (
     FORAGING,
     ControlTable,
@@ -72,8 +79,8 @@ class Composition:
         """The phenotype that becomes a rule set; rules that are switched off are left out.
 
         Raises:
-            InjectionError: It does not begin with the frozen rules, has none besides them, or one
-                of its probabilities is not among those that the grammar chooses from.
+            InjectionError: It does not begin with the frozen rules, has none besides them, or the
+                grammar does not derive the others: says which rule and why.
         """
         rules = tuple(map(_bare, rule_set.active_rules))
         frozen = len(self.frozen)
@@ -86,7 +93,12 @@ class Composition:
             for action in rule.actions:
                 _require_listed(action.p, number)
         text = format_text(RuleSet(rules[frozen:])).removeprefix('name ""')
-        return " ".join(text.split())
+        phenotype = " ".join(text.split())
+        try:
+            genome_of(foraging_grammar(), phenotype)
+        except NotASentenceError as error:
+            raise InjectionError(f"the grammar does not derive these rules: {error}") from error
+        return phenotype
 
     def behaviour(self, phenotype: str) -> bytes:
         """Equal for phenotypes under which robots decide the same: an engine's `identity`.

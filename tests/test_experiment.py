@@ -249,3 +249,23 @@ def test_equal_behaviours_have_one_key():
     never = plain + " rule if ON_NEST == true and ON_SOURCE == true do p = 1, RANDOM_WALK"
     assert behaviour(plain) == behaviour(twice) == behaviour(never)
     assert behaviour(plain) != behaviour(plain.replace("0.1", "0.05"))
+
+
+def test_a_run_can_be_read_while_it_is_written(tmp_path):
+    run = EvolutionRun.create(CONFIG, tmp_path / "run")
+    looks = []
+
+    def look(record):
+        other = EvolutionRun.read(tmp_path / "run")
+        looks.append((len(other.history), other.population(), other.genealogy(), other.best))
+        assert looks[-1] == (record.generation, run.population(), run.genealogy(), run.best)
+        other.close()
+
+    run.inject(MINE)
+    run.run(on_generation=look)
+    assert len(looks) == 4
+    assert [one.key for one in run.bred(1)] == list(range(13))
+    run.close()
+    other = EvolutionRun.read(tmp_path / "run")
+    assert other.finished
+    other.close()

@@ -49,6 +49,10 @@ _HEADER = 100  # bytes; format of the file: sqlite.org/fileformat.html, section 
 _MAGIC = b"SQLite format 3\0"
 
 
+_MISREAD = (ValueError, KeyError, TypeError, OverflowError, RecursionError)
+"""What reading a value raises that is not what should be there."""
+
+
 class StoreError(OSError):
     """A run directory cannot be used; says which, what was found and what to do."""
 
@@ -124,6 +128,9 @@ def checked_config(connection: sqlite3.Connection, path: Path) -> str:
             f"{path}: expected format {SCHEMA_VERSION} or older, found {version}; "
             "this run was made by a newer GESwarm"
         )
+    foreign = "SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index')"
+    for (name,) in connection.execute(foreign):
+        raise StoreError(f"{path}: expected nothing but tables in it, found {name!r}")
     (finding,) = connection.execute("PRAGMA quick_check(1)").fetchone()
     if finding != "ok":
         raise StoreError(f"{path}: the database is damaged: {finding}")
@@ -153,6 +160,6 @@ def kind_errors(directory: Path, problem: str) -> Iterator[None]:
         yield
     except StoreError:
         raise
-    except (sqlite3.Error, OSError, ValueError, KeyError) as error:
+    except (sqlite3.Error, OSError, *_MISREAD) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise StoreError(f"{directory}: {problem}: {reason}") from error

@@ -67,6 +67,7 @@ class DerivationTrees:
             for name, alternatives in self._below.items()
         }
         self._recursive = {name for name in grammar.rules if name in _reached_from(grammar, name)}
+        self._scales = {name for name, body in grammar.rules.items() if _is_scale(body)}
 
     def nodes(self, genome: Genome) -> list[Node]:
         """The derivation tree in preorder."""
@@ -119,7 +120,10 @@ class DerivationTrees:
         return child if len(child) <= max_codons else genome
 
     def redraw(self, genome: Genome, rng: np.random.Generator) -> Genome:
-        """Choose differently at one place; sub-derivations that still fit there are kept."""
+        """Choose differently at one place; sub-derivations that still fit there are kept.
+
+        Of numbers in their order, every other time it is the next one up or down.
+        """
         nodes = self.nodes(genome)
         choices = [index for index, node in enumerate(nodes) if not node.forced]
         if not choices:
@@ -127,7 +131,10 @@ class DerivationTrees:
         index = _draw(choices, rng)
         node = nodes[index]
         n = self.grammar.choices(node.name)
-        chosen = (node.alternative + 1 + int(rng.integers(n - 1))) % n
+        others = [(node.alternative + at) % n for at in range(1, n)]
+        if node.name in self._scales and rng.integers(2):
+            others = [at for at in others if abs(at - node.alternative) == 1]
+        chosen = _draw(others, rng)
         kept = [one for one in nodes if one.parent == index and not one.forced]
         codons = [_codon(chosen, n, rng)]
         for name in self._choices_below(self._below[node.name][chosen]):
@@ -229,7 +236,8 @@ class DerivationTrees:
     def _within(self, name: str, depth: int) -> list[int]:
         """The alternatives that can end within a depth, or else those that end soonest."""
         depths = self._depths[name]
-        return [at for at, least in enumerate(depths) if least <= max(depth, min(depths))]
+        most = max(depth, min(depths))
+        return [at for at, least in enumerate(depths) if least <= most]
 
     def _choices_below(self, children: list[str]) -> list[str]:
         """The non-terminals with a choice that some lead to first, in order."""
@@ -242,6 +250,15 @@ class DerivationTrees:
 
 def _children(alternative: Alternative) -> list[str]:
     return [symbol.name for symbol in alternative if isinstance(symbol, NonTerminal)]
+
+
+def _is_scale(alternatives: Sequence[Alternative]) -> bool:
+    """Whether they are numbers in ascending order, two or more."""
+    try:
+        numbers = [float("".join(map(str, alternative))) for alternative in alternatives]
+    except ValueError:
+        return False
+    return len(numbers) > 1 and numbers == sorted(numbers)
 
 
 def _by_name(nodes: list[Node]) -> dict[str, list[Node]]:

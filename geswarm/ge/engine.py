@@ -1,9 +1,9 @@
 """The evolutionary algorithm as an ask/tell engine (paper, section 3.1.2; GEVA 2.0).
 
 One generation: `population` offspring are bred; the worst of them make room for the elites of the
-generation before. Parameters (grammar, settings, seed) are apart from the state, which is one JSON
-value. Random numbers are keyed by (seed, generation, purpose), so a restored engine continues
-exactly.
+generation before, or all compete (`Settings.reevaluate_elites`). Parameters (grammar, settings,
+seed) are apart from the state, which is one JSON value. Random numbers are keyed by (seed,
+generation, purpose), so a restored engine continues exactly.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from geswarm.ge.grammar import Grammar
 from geswarm.ge.individual import WORST_FITNESS, Individual, from_json, to_json
 from geswarm.ge.inverse import genome_of
 from geswarm.ge.mapping import Genome, Mapper
+from geswarm.ge.ranking import noise_of, ranked
 from geswarm.ge.record import GenerationRecord
 from geswarm.ge.settings import Settings
-from geswarm.ge.variation import Child, Purpose, breed, initial, ranked
+from geswarm.ge.variation import Child, Purpose, breed, initial
 
 State: TypeAlias = dict[str, Any]
 """An engine's state in JSON types: see `Engine.state`."""
@@ -30,7 +31,7 @@ State: TypeAlias = dict[str, Any]
 Identity: TypeAlias = Callable[[str], Hashable]
 """Phenotype -> a value that is equal for phenotypes that behave the same."""
 
-TRUSTED = 5
+TRUSTED = 10
 """Evaluations after which a mean is believed as much as any other."""
 
 
@@ -60,12 +61,13 @@ class Engine:
         settings: The parameters; some of them can be steered.
         seed: Whole number >= 0; equal seeds give equal runs.
         generation: Generations that are finished.
-        population: Individuals of the last finished generation, all with a fitness, elites first.
+        population: Individuals of the last finished generation, all with a fitness, in the order
+            of their ranking; injected ones that would not have survived come last.
         offspring: What was bred for it, with the fitness of then; includes those that did not
             survive.
         best: The individual with the highest fitness so far, the first of equals; if elites are
-            evaluated again, the best of the population by all that is known of it, where a mean of
-            fewer than `TRUSTED` evaluations stands behind those of more.
+            evaluated again, the first in the ranking of those with `TRUSTED` evaluations, or with
+            as many as any has.
     """
 
     def __init__(
@@ -152,9 +154,13 @@ class Engine:
         values = _checked_fitness(fitness, list(self._asked.values()))
         told = dict(zip(self._asked, values, strict=True))
         past = {self._same(one): one for one in self.population}
-        elites = [self._evaluated(one, told, past) for one in self._elites()]
         bred = [self._evaluated(one, told, past) for one in self._bred]
-        self.population = self._survivors(elites, bred)
+        elites, noise = self._elites(), 0.0
+        if self.settings.reevaluate_elites:
+            noise = noise_of(elites, [told[self._same(one)] for one in elites])
+            elites = list(self.population)
+        elites = [self._evaluated(one, told, past) for one in elites]
+        self.population = self._survivors(elites, bred, noise)
         self.offspring = tuple(bred)
         self.generation += 1
         self.withdraw()
@@ -231,7 +237,14 @@ class Engine:
                 "checkpoint: expected generation, settings, population and best as state() gives "
                 f"them, got {type(error).__name__}: {error}"
             ) from error
-        for one in engine.population:
+        size = engine.settings.population if engine.generation else 0
+        champions = () if engine.best is None else (engine.best,)
+        if len(engine.population) != size or len(champions) != bool(size):
+            raise CheckpointError(
+                f"checkpoint: expected {size} individuals, the best among them, "
+                f"got {len(engine.population)}"
+            )
+        for one in (*engine.population, *champions):
             if engine._mapper.map(one.genome, engine.settings.max_wraps) != (
                 one.phenotype,
                 one.used,
@@ -276,8 +289,12 @@ class Engine:
         return individual.birth
 
     def _elites(self) -> list[Individual]:
-        """Those that survive the coming generation, best first."""
-        return self._distinct(ranked(self.population, self.settings))[: self.settings.elites]
+        """Those that survive the coming generation, or are evaluated again, best first."""
+        if self.settings.reevaluate_elites:
+            valid = [one for one in self.population if one.phenotype is not None]
+            return valid[: self.settings.elites]
+        everyone = ranked(self.population, 0.0, self.settings.parsimony)
+        return self._distinct(everyone)[: self.settings.elites]
 
     def _distinct(self, individuals: Iterable[Individual]) -> list[Individual]:
         """The first of those that are the same before the others, both in their order."""
@@ -289,12 +306,12 @@ class Engine:
         return [*firsts.values(), *others]
 
     def _survivors(
-        self, elites: list[Individual], bred: list[Individual]
+        self, elites: list[Individual], bred: list[Individual], noise: float
     ) -> tuple[Individual, ...]:
         """The best of elites and offspring, and the injected whatever they are worth."""
-        chosen = self._distinct(ranked([*elites, *bred], self.settings))
-        size = self.settings.population
-        injected = [one for one in chosen[size:] if one.key >= size]
+        chosen = self._distinct(ranked([*elites, *bred], noise, self.settings.parsimony))
+        size, now = self.settings.population, self.generation + 1
+        injected = [one for one in chosen[size:] if one.key >= size and one.generation == now]
         return (*chosen[: size - len(injected)], *injected)
 
     def _evaluated(
@@ -316,10 +333,10 @@ class Engine:
         return replace(individual, fitness=total / (before.told + 1), told=before.told + 1)
 
     def _champion(self) -> Individual:
-        if not self.settings.reevaluate_elites:
-            first = max(self.population, key=lambda one: one.value)
-            return first if self.best is None or first.value > self.best.value else self.best
-        return max(self.population, key=lambda one: (min(one.told, TRUSTED), one.value))
+        if self.settings.reevaluate_elites:  # the first in the ranking of those known best
+            return max(self.population, key=lambda one: min(one.told, TRUSTED))
+        first = max(self.population, key=lambda one: one.value)
+        return first if self.best is None or first.value > self.best.value else self.best
 
     def _record(self, bred: list[Individual], best: Individual, seconds: float) -> GenerationRecord:
         fitness = [one.value for one in bred]

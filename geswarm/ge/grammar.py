@@ -16,6 +16,9 @@ from importlib import resources
 from pathlib import Path
 from typing import TypeAlias
 
+MAX_CHARACTERS, MAX_RULES = 20_000, 1000
+"""Of a grammar's text; they bound what has to be done to read it and to map with it."""
+
 MAX_FORCED = 10_000
 """Most symbols that one choice may expand to without a further choice; bounds every mapping."""
 
@@ -79,8 +82,9 @@ class Grammar:
             GrammarError: The file cannot be read, or has errors: all of them, with file and line.
         """
         try:
-            text = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
+            with Path(path).open(encoding="utf-8") as file:
+                text = file.read(MAX_CHARACTERS + 1)
+        except (OSError, ValueError) as error:
             raise GrammarError([f"{path}: cannot be read as a grammar: {error}"]) from error
         return cls.parse(text, source=str(path), vocabulary=vocabulary)
 
@@ -92,6 +96,8 @@ class Grammar:
         vocabulary: Mapping[str, Sequence[str]] | None = None,
     ) -> Grammar:
         """Read a grammar from text; see `load`."""
+        if len(text) > MAX_CHARACTERS:
+            raise GrammarError([f"{source}: expected at most {MAX_CHARACTERS} characters"])
         reader = _Reader(source)
         reader.read(text)
         reader.fill(vocabulary or {})
@@ -163,16 +169,19 @@ class _Reader:
                 before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
                 body, symbols = self._define(token[1 : token.index(">")], before, at), None
             elif kind == "broken":
-                self.findings.append((at, f"{_WHY_BROKEN[token[0]]}, got {token.strip()!r}"))
+                self.findings.append((at, f"{_WHY_BROKEN[token[0]]}, got {token.strip()[:40]!r}"))
                 symbols = symbols or []
             elif kind == "bar" and body is not None:
                 self._close(body, symbols, at)
                 symbols = None
             elif kind != "space" and body is None:
-                self.findings.append((at, f"expected <name> ::= to begin a rule, got {token!r}"))
+                self.findings.append(
+                    (at, f"expected <name> ::= to begin a rule, got {token[:40]!r}")
+                )
                 return
             elif kind != "space":
-                symbols = [*symbols, SPACE] if symbols and apart else symbols or []
+                symbols = symbols or []
+                symbols += [SPACE] if symbols and apart else []
                 symbols += self._symbols(kind, token, at)
             apart = kind == "space"
         self._close(body, symbols, at)
@@ -181,7 +190,9 @@ class _Reader:
 
     def _define(self, name: str, before: str, line: int) -> list[Alternative]:
         if before.strip():
-            self.findings.append((line, f"<{name}> ::= must begin a line, got it after {before!r}"))
+            self.findings.append(
+                (line, f"<{name}> ::= must begin a line, got it after {before[-40:]!r}")
+            )
         if name in self.rules:
             message = f"<{name}> is already defined in line {self.lines[name]}"
             self.findings.append((line, message))
@@ -227,6 +238,9 @@ class _Reader:
             if name not in self.rules:
                 message = f"<{name}> is not defined, expected <{name}> ::= or a vocabulary for it"
                 self.findings.append((line, message))
+        if len(self.rules) > MAX_RULES:
+            message = f"expected at most {MAX_RULES} rules, got {len(self.rules)}"
+            self.findings.append((1, message))
         if self.findings:
             return
         ending = self._terminating()
@@ -239,12 +253,13 @@ class _Reader:
 
     def _terminating(self) -> set[str]:
         """The non-terminals that can derive a sentence."""
+        used = {name: [_names(one) for one in body] for name, body in self.rules.items()}
         ending: set[str] = set()
         grown = True
         while grown:
             grown = False
-            for name, body in self.rules.items():
-                if name not in ending and any(_names(one) <= ending for one in body):
+            for name, body in used.items():
+                if name not in ending and any(names <= ending for names in body):
                     ending.add(name)
                     grown = True
         return ending
@@ -252,17 +267,14 @@ class _Reader:
     def _check_forced(self) -> None:
         """Bound what expands without a choice: <a> ::= <b> <b>, <b> ::= <c> <c> ... doubles."""
         sizes: dict[str, int] = {name: 1 for name, body in self.rules.items() if len(body) > 1}
-        while len(sizes) < len(self.rules):  # single alternatives that terminate have no cycle
-            for name, (only, *_) in self.rules.items():
-                if name not in sizes and _names(only) <= sizes.keys():
-                    sizes[name] = sum(_size(symbol, sizes) for symbol in only)
+        used = {name: _names(body[0]) for name, body in self.rules.items() if len(body) == 1}
+        while used:  # single alternatives that terminate have no cycle
+            for name in [name for name, names in used.items() if names <= sizes.keys()]:
+                sizes[name] = min(_size(self.rules[name][0], sizes), MAX_FORCED + 1)
+                del used[name]
         for name, body in self.rules.items():
-            largest = max(sum(_size(symbol, sizes) for symbol in one) for one in body)
-            if largest > MAX_FORCED:
-                message = (
-                    f"<{name}> expands to {largest} symbols without a choice, "
-                    f"expected at most {MAX_FORCED}"
-                )
+            if any(_size(one, sizes) > MAX_FORCED for one in body):
+                message = f"<{name}> expands to more than {MAX_FORCED} symbols without a choice"
                 self.findings.append((self.lines[name], message))
 
     def unreachable(self) -> Iterator[str]:
@@ -288,5 +300,6 @@ def _names(alternative: Alternative) -> set[str]:
     return {symbol.name for symbol in alternative if isinstance(symbol, NonTerminal)}
 
 
-def _size(symbol: Symbol, sizes: Mapping[str, int]) -> int:
-    return sizes[symbol.name] if isinstance(symbol, NonTerminal) else 1
+def _size(alternative: Alternative, sizes: Mapping[str, int]) -> int:
+    """How many symbols an alternative expands to up to the next choices."""
+    return sum(sizes[one.name] if isinstance(one, NonTerminal) else 1 for one in alternative)

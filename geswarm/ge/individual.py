@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -72,13 +73,18 @@ def from_json(data: Mapping[str, Any]) -> Individual:
     genome = tuple(data["genome"])
     if not genome or not all(type(c) is int and 0 <= c < CODON_LIMIT for c in genome):
         raise ValueError(f"genome of individual {data['key']}: codons in [0, {CODON_LIMIT})")
+    for name, least in (("generation", 1), ("key", 0), ("used", 0), ("told", 1)):
+        if type(data[name]) is not int or not least <= data[name] < CODON_LIMIT:
+            raise ValueError(f"{name} of an individual: a whole number from {least} on")
+    if not 0 <= data["fitness"] < math.inf:
+        raise ValueError(f"fitness of individual {data['key']}: a finite number >= 0")
     return Individual(
-        generation=int(data["generation"]),
-        key=int(data["key"]),
+        generation=data["generation"],
+        key=data["key"],
         genome=genome,
         phenotype=None if data["phenotype"] is None else str(data["phenotype"]),
-        used=int(data["used"]),
+        used=data["used"],
         parents=tuple((int(generation), int(key)) for generation, key in data["parents"]),
         fitness=float(data["fitness"]),
-        told=int(data["told"]),
+        told=data["told"],
     )

@@ -87,17 +87,13 @@ def roulette(fitness: Sequence[float], count: int, rng: np.random.Generator) -> 
     return [int(index) for index in drawn]
 
 
-def tournament(
-    places: Sequence[int], count: int, contenders: int, rng: np.random.Generator
-) -> list[int]:
-    """Draw `count` indices: each the best placed of `contenders` drawn with replacement.
+def tournament(size: int, count: int, contenders: int, rng: np.random.Generator) -> list[int]:
+    """Draw `count` places of a ranking: each the best of `contenders` drawn with replacement.
 
     Args:
-        places: Place of each in the ranking, 0 for the best.
+        size: Length of the ranking; place 0 is the best.
         count: How many to draw.
         contenders: Per tournament; 1 is no selection.
         rng: Where the contenders come from.
     """
-    drawn = rng.integers(len(places), size=(count, contenders))
-    best = np.asarray(places)[drawn].argmin(axis=1)
-    return [int(index) for index in drawn[np.arange(count), best]]
+    return [int(at) for at in rng.integers(size, size=(count, contenders)).min(axis=1)]

@@ -9,14 +9,15 @@ from typing import Any
 PRESETS: dict[str, dict[str, Any]] = {
     "paper": {},
     "modern": {
+        "population": 200,
+        "evaluations": 1,
         "initialisation": "grow",
         "selection": "tournament",
         "tournament": 6,
         "variation": "derivation",
         "crossover": 0.5,
         "mutation": 0.5,
-        "elitism": 0.2,
-        "common_random_numbers": True,
+        "elitism": 0.5,
         "share_evaluations": True,
         "reevaluate_elites": True,
         "parsimony": True,
@@ -27,12 +28,17 @@ PRESETS: dict[str, dict[str, Any]] = {
 STEERABLE = ("crossover", "mutation", "scaling", "tournament")
 """What may change between generations."""
 
-_KINDS = {
+CHOICES = {
     "initialisation": ("random", "grow"),
     "selection": ("roulette", "tournament"),
     "variation": ("codons", "derivation"),
 }
+"""The settings that are names, and which names they can be."""
 _SWITCHES = ("common_random_numbers", "share_evaluations", "reevaluate_elites", "parsimony")
+
+
+MOST = 1_000_000
+"""Of everything that is counted: more could not be held in memory."""
 
 
 class SettingsError(ValueError):
@@ -54,7 +60,7 @@ class Settings:
         crossover: Probability that two parents are crossed over.
         mutation: Probability, per codon, that it is redrawn; on the derivation tree, that there is
             a local change, and then that there is another one.
-        elitism: Fraction of the population that survives unchanged.
+        elitism: Fraction of the population that survives unchanged, or is evaluated again.
         max_wraps: Passes over a genome after the first one (GEVA's usual value).
         max_codons: Longest genome; a guard, far beyond what the rules need.
         initialisation: `random` derivations (paper, section 2.2), or `grow`: position-independent
@@ -64,11 +70,12 @@ class Settings:
         tournament: Contenders per tournament, drawn with replacement.
         variation: Operators on `codons`, as GEVA's, or on the `derivation` tree.
         common_random_numbers: All individuals of a generation are evaluated with the same random
-            numbers: differences between them are less due to chance.
+            numbers.
         share_evaluations: Individuals that behave the same are one for the evaluation.
-        reevaluate_elites: Elites are evaluated again in each generation and ranked by the mean of
-            all their evaluations, so that luck does not survive.
-        parsimony: Among equals, the one with fewer codons ranks first.
+        reevaluate_elites: Elites are evaluated again in each generation, and the whole population
+            competes with the offspring by the mean of all evaluations less its standard error, so
+            that luck does not survive (Rakshit et al. 2017).
+        parsimony: Every codon costs a little in the ranking (Luke and Panait 2002).
 
     Raises:
         SettingsError: Values that cannot be used: every field, what was expected and given.
@@ -102,11 +109,13 @@ class Settings:
             self._number("mutation", "a probability in [0, 1]"),
             self._number("elitism", "a fraction of the population in [0, 1)", below=1.0),
             self._number("scaling", "a power in [0, 100]", most=100.0),
-            *(self._one_of(name, allowed) for name, allowed in _KINDS.items()),
+            *(self._one_of(name, allowed) for name, allowed in CHOICES.items()),
             *(self._one_of(name, (True, False)) for name in _SWITCHES),
         ]
         order = [field.name for field in fields(self)]
         given = [finding for finding in findings if finding]
+        if not given and self.population * self.evaluations > MOST:
+            given = [f"evaluations: expected at most {MOST} in all individuals of a generation"]
         if given:
             raise SettingsError(sorted(given, key=lambda text: order.index(text.split(":")[0])))
 
@@ -143,9 +152,9 @@ class Settings:
 
     def _whole(self, name: str, least: int) -> str:
         value = getattr(self, name)
-        if isinstance(value, int) and not isinstance(value, bool) and value >= least:
-            return ""
-        return f"{name}: expected a whole number >= {least}, got {value!r}"
+        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+            return f"{name}: expected a whole number >= {least}, got {value!r}"
+        return f"{name}: expected at most {MOST}, got {value}" if value > MOST else ""
 
     def _number(self, name: str, expected: str, most: float = 1.0, below: float = math.inf) -> str:
         value = getattr(self, name)

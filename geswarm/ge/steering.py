@@ -58,8 +58,11 @@ def from_json(data: Mapping[str, Any]) -> Steering:
     """What `to_json` made.
 
     Raises:
-        KeyError: It is something else.
+        ValueError: It is something else.
     """
-    if "inject" in data:
-        return Injection(data["inject"])
-    return SettingsChange(data["settings"])
+    match data:
+        case {"inject": str(sentence)}:
+            return Injection(sentence)
+        case {"settings": dict(settings)}:
+            return SettingsChange(settings)
+    raise ValueError("expected a sentence to inject or settings")

@@ -13,7 +13,8 @@ import sqlite3
 import threading
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import astuple, dataclass, fields
+from dataclasses import astuple, dataclass
+from math import isfinite
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -25,7 +26,11 @@ from geswarm.ge.individual import Birth, Individual
 from geswarm.ge.record import GenerationRecord
 from geswarm.ge.steering import Steering, StoredSteering
 
-_COLUMNS = ", ".join(f'"{field.name}"' for field in fields(GenerationRecord))
+_HISTORY = """
+SELECT generation, best_so_far, best, mean, invalid, "distinct", seconds
+FROM generation ORDER BY generation
+"""
+_ADD_GENERATION = "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"
 _ANCESTORS = """
 WITH RECURSIVE line (generation, key) AS (
     VALUES (?, ?)
@@ -103,13 +108,13 @@ class RunStore:
             StoreError: The directory holds a run already, or cannot be written.
         """
         directory = Path(directory)
-        for name in ("run.db", "config.yaml", "history.csv"):
-            if (directory / name).exists():
-                raise StoreError(
-                    f"{directory}: expected a directory without a run, found {name}; "
-                    "choose another one, or resume this run"
-                )
         with kind_errors(directory, "cannot begin a run here"):
+            for name in ("run.db", "config.yaml", "history.csv"):
+                if (directory / name).exists():
+                    raise StoreError(
+                        f"{directory}: expected a directory without a run, found {name}; "
+                        "choose another one, or resume this run"
+                    )
             directory.mkdir(parents=True, exist_ok=True)
             database.create(directory / "run.db", config)
         return cls.open(directory)
@@ -125,9 +130,9 @@ class RunStore:
         """
         directory = Path(directory)
         path = directory / "run.db"
-        if not path.is_file():
-            raise StoreError(f"{directory}: expected a run directory, found no run.db in it")
         with kind_errors(directory, "cannot open this run"):
+            if not path.is_file():
+                raise StoreError(f"{directory}: expected a run directory, found no run.db in it")
             database.require_run(path)
             with closing(database.connect_to_read(path)) as connection:
                 config = database.checked_config(connection, path)
@@ -164,7 +169,7 @@ class RunStore:
         with kind_errors(self.directory, f"cannot write generation {number}"), self._lock:
             with database.transaction(self._connection) as connection:
                 self._require_next(number)
-                connection.execute(f"INSERT INTO generation VALUES ({_marks(row)})", row)
+                connection.execute(_ADD_GENERATION, row)
                 connection.executemany("INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?)", bred)
                 connection.execute("DELETE FROM checkpoint")
                 connection.execute("INSERT INTO checkpoint VALUES (?, ?)", (number, checkpoint))
@@ -190,7 +195,9 @@ class RunStore:
         """All that was changed, in order."""
         rows = self._query("SELECT generation, what FROM steering ORDER BY number")
         with kind_errors(self.directory, "the record of changes is damaged"):
-            return [StoredSteering(at, steering.from_json(json.loads(what))) for at, what in rows]
+            return [
+                StoredSteering(int(at), steering.from_json(json.loads(what))) for at, what in rows
+            ]
 
     def individuals(self, generation: int) -> list[StoredIndividual]:
         """Who was bred for a generation."""
@@ -203,8 +210,15 @@ class RunStore:
         return self._individuals(_ANCESTORS, birth)
 
     def history(self) -> list[GenerationRecord]:
-        """All generations so far."""
-        rows = self._query(f"SELECT {_COLUMNS} FROM generation ORDER BY generation")
+        """All generations so far.
+
+        Raises:
+            StoreError: The record is damaged.
+        """
+        rows = self._query(_HISTORY)
+        for row in rows:
+            if not all(isinstance(value, int | float) and isfinite(value) for value in row):
+                raise StoreError(f"{self.directory}: expected finite numbers of generations")
         return [GenerationRecord(*row) for row in rows]
 
     def checkpoint(self) -> State | None:
@@ -271,10 +285,6 @@ class RunStore:
         lines = [GenerationRecord.csv_header(), *(row.csv_row() for row in self.history())]
         _write_atomically(self.directory / "config.yaml", self.config)
         _write_atomically(self.directory / "history.csv", "".join(f"{row}\n" for row in lines))
-
-
-def _marks(row: Sequence[object]) -> str:
-    return ", ".join("?" * len(row))
 
 
 def _write_atomically(path: Path, text: str) -> None:

@@ -85,24 +85,17 @@ def breed(
     return _on_codons(population, settings, random)
 
 
-def ranked(individuals: Sequence[Individual], settings: Settings) -> list[Individual]:
-    """Best first; equals in their order, or with parsimony the smaller first."""
-    parsimony = settings.parsimony
-    return sorted(individuals, key=lambda one: (-one.value, one.used if parsimony else 0))
-
-
 def _select(
     population: Sequence[Individual], count: int, settings: Settings, rng: np.random.Generator
 ) -> list[int]:
-    """Indices of parents."""
+    """Indices of parents; a population is in the order of its ranking."""
     if settings.selection == "roulette":
         best = max(one.value for one in population) or 1.0
         shares = [one.value for one in population]
         if settings.scaling != 1.0:
             shares = [(share / best) ** settings.scaling for share in shares]
         return roulette(shares, count, rng)
-    place = {one.birth: at for at, one in enumerate(ranked(population, settings))}
-    return tournament([place[one.birth] for one in population], count, settings.tournament, rng)
+    return tournament(len(population), count, settings.tournament, rng)
 
 
 def _on_codons(population: Sequence[Individual], settings: Settings, random: Random) -> list[Child]:

@@ -13,7 +13,7 @@ from geswarm.ge.operators import random_genome
 from tests.ge.test_mapping import grammars
 
 seeds = st.integers(0, 2**32)
-OPERATORS = ("edit", "redraw", "hoist", "insert")
+OPERATORS = ("redraw", "hoist", "insert")
 
 
 def rng(seed=0):
@@ -59,7 +59,7 @@ def test_operators_keep_genomes_valid_in_any_grammar(grammar, seed):
     parents = [tuple(trees.grow(grammar.start, 6, random)) for _ in range(2)]
     assume(all(1 <= len(parent) <= 300 for parent in parents))
     first, second = parents
-    children = [getattr(trees, name)(first, random) for name in OPERATORS[1:]]
+    children = [getattr(trees, name)(first, random) for name in OPERATORS]
     children += [trees.swap(first, second, 400, random), trees.edit(first, 400, random)]
     for genome in (*parents, *children):
         assert is_codons(genome)
@@ -138,10 +138,20 @@ def test_hoist_removes_one_element_and_insert_adds_one(mapper, trees, grammar):
     assert all(len(one) > len(" ".join(rules)) for one in longer)
 
 
+def test_redraw_goes_to_the_next_number_more_often(mapper, trees, grammar):
+    text = "rule do p = {}, PHOTOTAXIS"
+    genome = genome_of(grammar, text.format("0.025"))
+    drawn = [sentence(mapper, trees.redraw(genome, rng(seed))) for seed in range(4000)]
+    counts = {p: drawn.count(text.format(p)) for p in ("0.001", "0.01", "0.05", "1.0")}
+    # Half of the time one of 2, half of the time one of 7: 9 to 2.
+    assert counts["0.01"] + counts["0.05"] > 3 * (counts["0.001"] + counts["1.0"])
+    assert all(counts.values())
+
+
 def test_a_grammar_without_choices_has_nothing_to_vary():
     trees = DerivationTrees(Grammar.parse("<s> ::= a <b>\n<b> ::= c"))
     assert trees.grow_to(5, rng()) == (0,)
-    for name in OPERATORS[1:]:
+    for name in OPERATORS:
         assert getattr(trees, name)((0,), rng()) == (0,)
     assert trees.swap((0,), (0,), 10, rng()) == (0,)
 

@@ -92,6 +92,8 @@ def solve(seed, population=300, generations=40):
         "modern",
         population=population,
         generations=generations,
+        elitism=0.2,
+        reevaluate_elites=False,  # nothing is left to chance
         tournament=3,
         crossover=0.3,
         mutation=0.5,

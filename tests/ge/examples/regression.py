@@ -27,6 +27,8 @@ def solve(seed, population=200, generations=60):
         "modern",
         population=population,
         generations=generations,
+        elitism=0.2,
+        reevaluate_elites=False,  # nothing is left to chance
         tournament=6,
         crossover=0.5,
         mutation=0.5,

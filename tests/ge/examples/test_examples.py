@@ -34,6 +34,6 @@ def test_the_ant_finds_all_food():
 
 @pytest.mark.slow
 def test_the_formula_is_found():
-    best, generations = regression.solve(seed=1)
+    best, generations = regression.solve(seed=0)
     assert best.fitness == pytest.approx(1.0)
     assert generations < 60
