@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import math
-import signal
 import threading
-import time
-from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
@@ -22,6 +18,7 @@ from rich.progress import (
 )
 
 from geswarm.cli import UsageError
+from geswarm.cli.stopping import STOPPED_STATUS, every, stop_on_signals
 from geswarm.cluster import ClusterError, cluster_executor
 from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
@@ -29,7 +26,6 @@ from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
 
 from .run_directory import new_run_directory
 
-STOPPED_STATUS = 130
 _LOG_SECONDS = 10.0
 
 
@@ -51,10 +47,10 @@ def evolve_headless(options: argparse.Namespace) -> int:
 def _evolve_and_report(
     run: EvolutionRun, workers: int | None, executor: Executor | None, console: Console
 ) -> int:
-    if not is_compiled():
-        warm_up()
     try:
-        with _stop_on_signals() as stop:
+        with stop_on_signals() as stop:
+            if not is_compiled():
+                warm_up()
             _evolve(run, workers, executor, stop, console)
     except (StoreError, EvaluationError) as error:
         console.print(f"geswarm-ui: {error}", markup=False, soft_wrap=True)
@@ -118,7 +114,7 @@ def _evolve(
     with progress:
         done = len(run.history)
         task = progress.add_task("", total=settings.generations, completed=done, figures="")
-        log_is_due = _every(_LOG_SECONDS)
+        log_is_due = every(_LOG_SECONDS)
 
         def show(record: GenerationRecord) -> None:
             rate = 1 / record.seconds if record.seconds else 0.0
@@ -133,38 +129,3 @@ def _evolve(
                 )
 
         run.run(workers, show, stop.is_set, executor)
-
-
-def _every(seconds: float) -> Callable[[], bool]:
-    """A question that is answered yes at most once in so many seconds."""
-    last = -math.inf
-
-    def due() -> bool:
-        nonlocal last
-        now = time.monotonic()
-        if now - last < seconds:
-            return False
-        last = now
-        return True
-
-    return due
-
-
-@contextmanager
-def _stop_on_signals() -> Iterator[threading.Event]:
-    """An event that Ctrl-C and SIGTERM set; a second Ctrl-C ends the program at once."""
-    stop = threading.Event()
-
-    def ask_to_stop(number: int, _frame: object) -> None:
-        if stop.is_set() and number == signal.SIGINT:
-            raise KeyboardInterrupt
-        stop.set()
-
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    for number in before:
-        signal.signal(number, ask_to_stop)
-    try:
-        yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

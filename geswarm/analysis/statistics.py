@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import stats
+
+SIGNIFICANCE = 0.001
+"""A difference with a lower p-value is one (paper, section 3.2)."""
 
 
 @dataclass(frozen=True)
@@ -15,11 +19,19 @@ class Comparison:
 
     Attributes:
         p_value: Probability of ranks at least this different if a and b were the same.
-        effect: Probability that a run of a beats a run of b; ties count half.
+        effect: Probability that a run of a beats a run of b; ties count half (Vargha and
+            Delaney's A).
     """
 
     p_value: float
     effect: float
+
+    @property
+    def winner(self) -> int:
+        """1 if a is significantly better, -1 if b is, 0 if there is no telling."""
+        if self.p_value >= SIGNIFICANCE:
+            return 0
+        return 1 if self.effect > 0.5 else -1
 
 
 @dataclass(frozen=True)
@@ -76,3 +88,19 @@ def compare(a: ArrayLike, b: ArrayLike) -> Comparison:
         p_value=1.0 if np.isnan(p_value) else p_value,
         effect=float(result.statistic) / (first.size * second.size),
     )
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Correct the p-values of a family of tests by Holm's step-down procedure (1979).
+
+    The chance that any of the family falls below a level by luck alone is at most that level.
+
+    Returns:
+        The corrected p-values, in the order given.
+    """
+    corrected = [1.0] * len(p_values)
+    largest = 0.0
+    for rank, at in enumerate(sorted(range(len(p_values)), key=lambda at: p_values[at])):
+        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[at]))
+        corrected[at] = largest
+    return corrected

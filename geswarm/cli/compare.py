@@ -1,0 +1,88 @@
+"""`geswarm compare`: any rule sets in any scenarios, as a table, JSON or a page with box plots."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import TYPE_CHECKING
+
+from geswarm.cli.arguments import (
+    RULES_HELP,
+    SCENARIO_HELP,
+    UsageError,
+    Verbs,
+    add_simulation_options,
+)
+from geswarm.cli.output import progress_bar, write_files
+
+if TYPE_CHECKING:
+    from geswarm.analysis.compared import Compared
+
+
+def add_compare(verbs: Verbs) -> None:
+    """Add compare."""
+    compare = verbs.add_parser("compare", help="compare rule sets in several scenarios")
+    compare.add_argument("rules", nargs="+", metavar="RULES", help=RULES_HELP)
+    compare.add_argument(
+        "--scenario", nargs="+", default=["paper"], metavar="S", help=SCENARIO_HELP
+    )
+    compare.add_argument("--html", metavar="FILE", help="write a page with box plots")
+    add_simulation_options(compare)
+    compare.set_defaults(command=_compare)
+
+
+def _compare(options: argparse.Namespace) -> int:
+    from geswarm.analysis.cases import Case, run_cases
+    from geswarm.analysis.compared import Compared
+    from geswarm.rules import RuleSetError, load_rule_set
+    from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
+
+    for what in ("rules", "scenario"):
+        given = getattr(options, what)
+        if twice := [one for one in given if given.count(one) > 1]:
+            raise UsageError(f"{what}: expected each one once, got {twice[0]} twice")
+    try:
+        rule_sets = {name: load_rule_set(name) for name in options.rules}
+        scenarios = [load_scenario(name).with_changes(name=name) for name in options.scenario]
+    except (RuleSetError, ScenarioError) as error:
+        raise UsageError(str(error)) from error
+    if not is_compiled():
+        warm_up()
+    cases = [Case(name, scenario) for scenario in scenarios for name in rule_sets]
+    with progress_bar() as on_progress:
+        samples = run_cases(
+            cases,
+            rule_sets,
+            options.runs,
+            options.seed,
+            options.workers,
+            on_progress=on_progress,
+        )
+    compared = Compared(rule_sets, samples, options.rules[0], options.runs, options.seed)
+    if options.html is not None:
+        write_files({options.html: compared.page()})
+    if options.json:
+        print(json.dumps(compared.document()))
+    else:
+        _print_table(compared)
+    return 0
+
+
+def _print_table(compared: Compared) -> None:
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    from geswarm.analysis.compared import HEADINGS
+
+    console = Console()
+    title = f"Collected objects, {compared.runs} runs each, seed {compared.seed}"
+    table = Table(title=title, box=SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    for at, heading in enumerate(HEADINGS):
+        table.add_column(heading, justify="left" if at < 2 else "right", overflow="fold")
+    for row in compared.rows():
+        table.add_row(*map(Text, row))
+    console.print(table)
+    if compared.explanation:
+        console.print(compared.explanation, markup=False, highlight=False)

@@ -1,0 +1,166 @@
+"""The verbs that read and carry rule sets: show, check, equal, export."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from geswarm.cli.arguments import RULES_HELP, SCENARIO_HELP, UsageError, Verbs
+from geswarm.cli.output import write_files
+
+if TYPE_CHECKING:
+    from geswarm.rules import RuleSet
+
+EXPORT_FORMS = (
+    "yaml", "text", "json", "english", "markdown", "latex",
+    "mermaid", "dot", "svg", "argos-lua", "automode",
+)  # fmt: skip
+
+
+def add_rule_verbs(verbs: Verbs) -> None:
+    """Add show, check, equal and export."""
+    show = verbs.add_parser("show", help="print a rule set")
+    show.add_argument("rules", metavar="RULES", help=RULES_HELP)
+    show.add_argument("--as", dest="form", choices=["table", "text", "yaml"], default="table")
+    show.set_defaults(command=_show)
+
+    check = verbs.add_parser("check", help="list everything that is wrong with a rule set")
+    check.add_argument("rules", metavar="RULES", help=RULES_HELP)
+    check.set_defaults(command=_check)
+
+    equal = verbs.add_parser("equal", help="tell whether two rule sets make robots do the same")
+    equal.add_argument("a", metavar="A", help=RULES_HELP)
+    equal.add_argument("b", metavar="B", help=RULES_HELP)
+    equal.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    equal.set_defaults(command=_equal)
+
+    export = verbs.add_parser("export", help="write a rule set in a form for use elsewhere")
+    export.add_argument("rules", metavar="RULES", help=RULES_HELP)
+    export.add_argument("--to", dest="form", choices=EXPORT_FORMS, required=True)
+    export.add_argument("-o", "--output", metavar="FILE", help="default: standard output")
+    export.add_argument("--scenario", metavar="S", help=f"argos-lua: {SCENARIO_HELP}")
+    export.add_argument(
+        "--experiment", metavar="FILE", help="argos-lua: also write the scenario for ARGoS"
+    )
+    export.add_argument(
+        "--strict", action="store_true", help="automode: refuse what cannot be expressed"
+    )
+    export.set_defaults(command=_export)
+
+
+def _show(options: argparse.Namespace) -> int:
+    from geswarm.rules import FORMATS, RuleSetError, format_table, load_rule_set
+
+    try:
+        rule_set = load_rule_set(options.rules)
+    except RuleSetError as error:
+        raise UsageError(str(error)) from error
+    form = format_table if options.form == "table" else FORMATS[options.form]
+    sys.stdout.write(form(rule_set))
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    """Exit 1 if there is an error or a warning; hints are about pieces without effect."""
+    from geswarm.rules import RuleSetError, RuleSetNotFoundError, check, load_rule_set
+
+    try:
+        findings: Sequence[Any] = check(load_rule_set(options.rules))
+    except RuleSetNotFoundError as error:
+        raise UsageError(str(error)) from error
+    except RuleSetError as error:
+        findings = error.findings
+    for finding in findings:
+        print(f"{finding.severity}: {finding}")
+    if not findings:
+        print(f"{options.rules}: no findings")
+    return int(any(finding.severity != "hint" for finding in findings))
+
+
+def _equal(options: argparse.Namespace) -> int:
+    """Exit 1 if there is a situation in which the two decide differently."""
+    from geswarm.rules import RuleSetError, first_difference, load_rule_set
+
+    try:
+        difference = first_difference(load_rule_set(options.a), load_rule_set(options.b))
+    except RuleSetError as error:
+        raise UsageError(str(error)) from error
+    if options.json:
+        found = None if difference is None else vars(difference)
+        print(json.dumps({"a": options.a, "b": options.b, "equal": not found, "difference": found}))
+    elif difference is None:
+        print("equal")
+    else:
+        print(f"different {difference.situation}:")
+        for name, decisions in ((options.a, difference.first), (options.b, difference.second)):
+            print(f"  {name}")
+            for decision, p in decisions.items():
+                print(f"    {p:<9.6g} {decision}")
+    return int(difference is not None)
+
+
+def _export(options: argparse.Namespace) -> int:
+    """Exit 1 if `--strict` refuses; nothing is written then."""
+    from geswarm.rules import RuleSetError, load_rule_set
+    from geswarm.rules.exports import EXPORTS
+
+    for option, form in (
+        ("scenario", "argos-lua"),
+        ("experiment", "argos-lua"),
+        ("strict", "automode"),
+    ):
+        if getattr(options, option) and options.form != form:
+            raise UsageError(f"--{option} goes with --to {form}, not with --to {options.form}")
+    try:
+        rule_set = load_rule_set(options.rules)
+        if options.form == "automode" and not _automode_says_all(rule_set, options):
+            return 1
+        if options.form == "argos-lua":
+            files = _argos_files(rule_set, options)
+        else:
+            files = {options.output: EXPORTS[options.form](rule_set)}
+    except RuleSetError as error:
+        raise UsageError(str(error)) from error
+    write_files(files)
+    return 0
+
+
+def _automode_says_all(rule_set: RuleSet, options: argparse.Namespace) -> bool:
+    """List on stderr what AutoMoDe cannot express; False if that is a reason to refuse."""
+    from geswarm.rules.exports import to_automode
+
+    warnings = to_automode(rule_set).warnings
+    severity = "error" if options.strict else "warning"
+    for warning in warnings:
+        print(f"{severity}: AutoMoDe: {warning}", file=sys.stderr)
+    return not (warnings and options.strict)
+
+
+def _argos_files(rule_set: RuleSet, options: argparse.Namespace) -> dict[str | None, str]:
+    """The controller script and, if asked for, the experiment and its floor beside it."""
+    from geswarm.rules.exports import format_argos_experiment, format_argos_lua, format_floor
+    from geswarm.sim import ScenarioError, load_scenario
+
+    try:
+        scenario = load_scenario(options.scenario or "paper")
+    except ScenarioError as error:
+        raise UsageError(str(error)) from error
+    files: dict[str | None, str] = {options.output: format_argos_lua(rule_set, scenario)}
+    if options.experiment:
+        if not options.output:
+            raise UsageError("--experiment refers to the script by its name: give it one with -o")
+        experiment = Path(options.experiment)
+        if not experiment.name:
+            raise UsageError(f"--experiment: expected a file, got {options.experiment!r}")
+        floor = experiment.with_name(f"{experiment.stem}-floor.ppm")
+        script = os.path.relpath(options.output, experiment.parent)
+        files[str(floor)] = format_floor(scenario)
+        files[str(experiment)] = format_argos_experiment(scenario, script, floor.name)
+        if len(files) < 3:
+            raise UsageError("the script and the experiment must be different files")
+    return files
