@@ -13,10 +13,13 @@ import time
 import viser
 
 from geswarm.cli import UsageError
+from geswarm.cli.stopping import end_on_signals
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
 from geswarm.sim import Scenario, ScenarioError, is_compiled, load_scenario, warm_up
 
+from .panels.evolution_page import EvolutionPage
 from .panels.evolution_panel import EvolutionPanel
+from .panels.experiments_page import ExperimentsPage
 from .panels.inspector_panel import InspectorPanel
 from .panels.record_panel import RecordPanel
 from .panels.rule_page import RulePage
@@ -25,19 +28,21 @@ from .panels.show_panel import ShowPanel
 from .panels.swarm_panel import SwarmPanel
 from .scene.recorder import Recorder
 from .scene.stage import Stage
-from .server.access import is_loopback
+from .server.access import Access, machine_address
 from .server.gate import ServerError, open_server
 from .state.evolution import EvolutionThread
+from .state.journal import Journal, journal_directory
 from .state.session import Session
 
 FRAME_SECONDS = 1 / 30
 _SIMULATION_SHARE = 0.6  # of a frame; the rest is for the display
+_LONGEST_FRAME = 1.0  # s: when the machine has slept, or hung, nothing catches up
 _PANEL_SECONDS = 0.1  # numbers need not change faster
 
-_TABLE_WIDTH = 600
+_PAGES_WIDTH = 600
 _CONTROLS_WIDTH = 320
-_TABLE = (
-    '<iframe src="/rules/rules.html?theme={theme}" title="Rule table" '
+_FRAME = (
+    '<iframe src="/{page}/{page}.html?theme={theme}" title="{title}" '
     'style="display:block;width:100%;height:calc(100vh - 72px);border:0"></iframe>'
 )
 
@@ -49,13 +54,23 @@ class Dashboard:
 
     Attributes:
         server: viser's server, behind the gate.
+        access: Who is let in.
         session: What is shown.
     """
 
-    def __init__(self, session: Session, host: str, port: int, dark: bool = False) -> None:
+    def __init__(self, session: Session, access: Access, port: int, dark: bool = False) -> None:
         self.session = session
+        self.access = access
         self.rule_page = RulePage(session)
-        self.server = open_server(host, port, {"rules": self.rule_page.channel}, "GESwarm")
+        self.evolution_page = EvolutionPage(session)
+        self.experiments_page = ExperimentsPage(session)
+        pages = {
+            "rules": self.rule_page.channel,
+            "evolution": self.evolution_page.channel,
+            "experiments": self.experiments_page.channel,
+        }
+        made = {"experiments": self.experiments_page.made_file}
+        self.server = open_server(access, port, pages, "GESwarm", made)
         self.stage = Stage(session)
         self.recorder = Recorder()
         self.swarm_panel = SwarmPanel(session)
@@ -69,8 +84,14 @@ class Dashboard:
 
     @property
     def address(self) -> str:
-        """Where to point a browser."""
-        return f"http://{self.server.get_host()}:{self.server.get_port()}"
+        """Where the server is."""
+        return f"http://{machine_address(self.server.get_host())}:{self.server.get_port()}"
+
+    @property
+    def link(self) -> str:
+        """What to open in a browser: the address, with the token if one is demanded."""
+        token = self.access.token
+        return self.address if token is None else f"{self.address}/?token={token}"
 
     def _build(self, dark: bool) -> None:
         gui = self.server.gui
@@ -91,11 +112,16 @@ class Dashboard:
             self.record_panel.build(gui, self.server)
         gui.main_panel.dock_left()
         gui.main_panel.set_width(_CONTROLS_WIDTH)
-        table = gui.add_panel()
-        with table.add_tab("Rules", viser.Icon.TABLE):
-            gui.add_html(_TABLE.format(theme="dark" if dark else "light"))
-        table.dock_right()
-        table.set_width(_TABLE_WIDTH)
+        pages = gui.add_panel()
+        theme = "dark" if dark else "light"
+        with pages.add_tab("Rules", viser.Icon.TABLE):
+            gui.add_html(_FRAME.format(page="rules", title="Rule table", theme=theme))
+        with pages.add_tab("Evolution", viser.Icon.DNA_2):
+            gui.add_html(_FRAME.format(page="evolution", title="Evolution", theme=theme))
+        with pages.add_tab("Experiments", viser.Icon.FLASK):
+            gui.add_html(_FRAME.format(page="experiments", title="Experiments", theme=theme))
+        pages.dock_right()
+        pages.set_width(_PAGES_WIDTH)
 
     def run(self) -> None:
         """Show the session until `stop` is called."""
@@ -103,7 +129,7 @@ class Dashboard:
         while not self._stop.is_set():
             now = time.perf_counter()
             try:
-                self._frame(now - last)
+                self._frame(min(now - last, _LONGEST_FRAME))
                 if now - last_panels >= _PANEL_SECONDS:
                     last_panels = now
                     self._sync_panels()
@@ -127,6 +153,8 @@ class Dashboard:
         self.stage.sync(elapsed)
         self.recorder.sync(elapsed)
         self.rule_page.sync(elapsed)
+        self.evolution_page.sync(elapsed)
+        self.experiments_page.sync(elapsed)
 
     def _sync_panels(self) -> None:
         for panel in (
@@ -148,17 +176,24 @@ def run_dashboard(options: argparse.Namespace) -> int:
     except (ScenarioError, RuleSetError) as error:
         raise UsageError(str(error)) from error
     if not is_compiled():
-        warm_up()
+        with end_on_signals("geswarm-ui"):
+            warm_up()
     port = 8080 if options.port is None else options.port
     try:
         dashboard = open_dashboard(
-            scenario, rule_set, options.host or "127.0.0.1", port, options.workers, options.dark
+            scenario,
+            rule_set,
+            options.host or "127.0.0.1",
+            port,
+            options.workers,
+            options.dark,
+            options.token,
         )
     except ServerError as error:
         raise UsageError(str(error)) from error
-    _announce(dashboard, port)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: dashboard.stop())
+    _announce(dashboard, port)
     dashboard.session.post(lambda session: session.play())
     try:
         dashboard.run()
@@ -178,6 +213,7 @@ def open_dashboard(
     port: int,
     workers: int | None = None,
     dark: bool = False,
+    private: bool = False,
 ) -> Dashboard:
     """A dashboard that is served but not yet running.
 
@@ -188,19 +224,25 @@ def open_dashboard(
         port: Port to listen on; 0 for any.
         workers: Threads for evolution; None leaves one core to the arena.
         dark: Light text on a dark ground.
+        private: Demand a token even where only this machine can reach the address.
 
     Raises:
         ServerError: It cannot listen there.
     """
     if workers is None:
         workers = max(1, (os.cpu_count() or 1) - 1)
-    return Dashboard(Session(scenario, rule_set, EvolutionThread(workers)), host, port, dark)
+    journal = Journal(journal_directory())
+    session = Session(scenario, rule_set, EvolutionThread(workers), journal=journal)
+    return Dashboard(session, Access.to_host(host, private), port, dark)
 
 
 def _announce(dashboard: Dashboard, wanted_port: int) -> None:
     port = dashboard.server.get_port()
     if wanted_port not in (0, port):
         print(f"Port {wanted_port} is busy, using {port} instead.", file=sys.stderr)
-    if not is_loopback(dashboard.server.get_host()):
-        print("Warning: whoever reaches this machine can use the dashboard.", file=sys.stderr)
-    print(f"GESwarm is at {dashboard.address}  (Ctrl-C ends it)", flush=True)
+    if not dashboard.access.loopback:
+        print(
+            "Warning: whoever has the address below can use the dashboard; nothing is encrypted.",
+            file=sys.stderr,
+        )
+    print(f"GESwarm is at {dashboard.link}  (Ctrl-C ends it)", flush=True)

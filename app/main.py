@@ -37,6 +37,11 @@ def _parser() -> argparse.ArgumentParser:
     dashboard = parser.add_argument_group("dashboard")
     dashboard.add_argument("--host", metavar="H", help="default: 127.0.0.1, this machine only")
     dashboard.add_argument("--port", type=_port, metavar="P", help="default: 8080")
+    dashboard.add_argument(
+        "--token",
+        action="store_true",
+        help="let in only who has the token in the address; always so if other machines can come",
+    )
     dashboard.add_argument("--rules", metavar="R", help=f"{RULES_HELP}; default: evo8")
     dashboard.add_argument("--dark", action="store_true", help="light text on a dark ground")
     headless = parser.add_argument_group("headless evolution")

@@ -12,8 +12,13 @@ RUNS = Path("runs")
 
 
 def new_run_directory(config: RunConfig, parent: Path = RUNS) -> Path:
-    """A name that is not taken: scenario, seed and time of day; the directory is not made."""
+    """A name for a run that is not taken: scenario, seed and time; the directory is not made."""
+    return new_directory(f"{config.scenario.name[:100]}-seed{config.seed}", parent)
+
+
+def new_directory(what: str, parent: Path = RUNS) -> Path:
+    """A name that is not taken: what it is, and the time of day; the directory is not made."""
     now = datetime.now().strftime("%Y-%m-%d-%H%M%S")
-    stem = f"{config.scenario.name}-seed{config.seed}-{now}"
+    stem = f"{what}-{now}"
     names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
     return next(parent / name for name in names if not (parent / name).exists())

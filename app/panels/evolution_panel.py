@@ -1,4 +1,4 @@
-"""The panel that evolves: parameters, start and stop, fitness curves."""
+"""The panel that evolves: start and stop, fitness curves; the evolution page has all the rest."""
 
 from __future__ import annotations
 
@@ -10,10 +10,6 @@ import viser
 from viser import uplot
 from viser._gui_handles import GuiProgressBarHandle
 
-from geswarm.experiment import RunConfig
-from geswarm.ge import PRESETS, Settings
-
-from ..run_directory import new_run_directory
 from ..state.evolution import REFERENCES, EvolutionThread, Phase
 from ..state.session import Session
 
@@ -39,7 +35,6 @@ class EvolutionHandles:
     stop: viser.GuiButtonHandle
     load_best: viser.GuiButtonHandle
     chart: viser.GuiUplotHandle
-    parameters: viser.GuiFolderHandle
 
 
 class EvolutionPanel:
@@ -53,58 +48,38 @@ class EvolutionPanel:
 
     def build(self, gui: viser.GuiApi) -> None:
         """Make the widgets in the present container."""
-        status = gui.add_html(status_html(self.session.evolution))
+        status = gui.add_html(status_html(self.session.evolution, []))
         progress = gui.add_progress_bar(0.0, visible=False)
         chart = add_chart(gui)
         start = gui.add_button("Start evolution", icon=viser.Icon.DNA_2)
         pause = gui.add_button("Pause", icon=viser.Icon.PLAYER_PAUSE, visible=False)
         stop = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, visible=False)
-        load_best = gui.add_button(
+        load = gui.add_button(
             "Load the best into the arena", icon=viser.Icon.DOWNLOAD, disabled=True
         )
-        parameters = gui.add_folder("Parameters", expand_by_default=False)
-        with parameters:
-            settings = Settings()
-            preset = gui.add_dropdown(
-                "Preset",
-                tuple(PRESETS),
-                hint="paper: as the paper evolved; modern: finds good rules sooner",
-            )
-            generations = gui.add_number("Generations", settings.generations, min=1, step=1)
-            population = gui.add_number("Population", settings.population, min=2, step=1)
-            evaluations = gui.add_number("Runs each", settings.evaluations, min=1, step=1)
-            seed = gui.add_number("Seed", 0, min=0, step=1)
-        self.handles = EvolutionHandles(
-            status, progress, start, pause, stop, load_best, chart, parameters
-        )
-
-        @start.on_click
-        def _(_: object) -> None:
-            settings = Settings.preset(
-                preset.value,
-                generations=int(generations.value),
-                population=int(population.value),
-                evaluations=int(evaluations.value),
-            )
-            number = int(seed.value)
-            self.session.post(lambda session: begin(session, settings, number))
+        self.handles = EvolutionHandles(status, progress, start, pause, stop, load, chart)
+        start.on_click(lambda _: self.session.post(begin))
 
         @pause.on_click
         def _(_: object) -> None:
             self.session.post(lambda session: pause_or_go_on(session.evolution))
 
         stop.on_click(lambda _: self.session.post(lambda session: session.evolution.stop(0.0)))
-        load_best.on_click(lambda _: self.session.post(lambda session: session.load_best()))
+        load.on_click(lambda _: self.session.post(load_best))
 
     def sync(self) -> None:
         """Show the evolution as it is."""
         evolution, handles = self.session.evolution, self.handles
-        shown = (evolution.phase, len(evolution.history), len(evolution.references))
+        plan, rule_set = self.session.runs.plan, self.session.document.rule_set
+        progress = (evolution.phase, len(evolution.history), len(evolution.references))
+        shown = (*progress, plan, rule_set, self.session.campaigns.thread.active)
         if shown == self._shown:
             return
         self._shown = shown
-        handles.status.content = status_html(evolution)
-        handles.start.visible = handles.parameters.visible = not evolution.active
+        findings = plan.findings(rule_set)
+        handles.status.content = status_html(evolution, list(findings))
+        handles.start.disabled = bool(findings) or self.session.campaigns.thread.active
+        handles.start.visible = not evolution.active
         handles.pause.visible = handles.stop.visible = evolution.active
         paused = evolution.phase is Phase.PAUSED
         handles.pause.label = "Go on" if paused else "Pause"
@@ -113,15 +88,27 @@ class EvolutionPanel:
         if evolution.generations:
             done = 100.0 * len(evolution.history) / evolution.generations
             handles.progress.value = done  # type: ignore[misc]  # viser types it read-only
-        if evolution.history and len(evolution.references) == len(REFERENCES):
+        drawn = bool(evolution.history) and len(evolution.references) == len(REFERENCES)
+        if drawn:
             handles.chart.data = curves(evolution)
-            handles.chart.visible = True
+        handles.chart.visible = drawn
 
 
-def begin(session: Session, settings: Settings, seed: int) -> None:
-    """Start evolving in the scenario of the arena, in a new directory below runs/."""
-    config = RunConfig(session.scenario, settings, seed)
-    session.evolution.start(config, new_run_directory(config))
+def begin(session: Session) -> None:
+    """Start the planned run in the scenario of the arena, unless the plan has findings.
+
+    While a campaign is under way nothing is started.
+    """
+    if session.campaigns.thread.active:
+        return
+    if not session.runs.plan.findings(session.document.rule_set):
+        session.runs.start(session.scenario)
+
+
+def load_best(session: Session) -> None:
+    """Load the best rule set that evolution has found so far, if there is one."""
+    if (best := session.evolution.best) is not None:
+        session.load(best)
 
 
 def pause_or_go_on(evolution: EvolutionThread) -> None:
@@ -176,9 +163,16 @@ def curves(evolution: EvolutionThread) -> tuple[np.ndarray, ...]:
     return (*columns, *lines)
 
 
-def status_html(evolution: EvolutionThread) -> str:
-    """One or two lines about the run, as HTML."""
-    if evolution.phase is Phase.IDLE:
+def status_html(evolution: EvolutionThread, findings: list[str]) -> str:
+    """One or two lines about the run, as HTML.
+
+    Args:
+        evolution: It.
+        findings: Names of the parameters of the next run that cannot be used.
+    """
+    if findings and not evolution.active:
+        text = f"The page Evolution tells what is wrong with: {', '.join(findings)}."
+    elif evolution.phase is Phase.IDLE:
         text = "Evolves foraging rules in the scenario of the arena, while the swarm goes on."
     elif evolution.phase is Phase.FAILED:
         text = f"Evolution failed: {evolution.error}"

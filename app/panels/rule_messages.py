@@ -20,12 +20,14 @@ from geswarm.rules import (
 )
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.text import format_rule
-from geswarm.sim import WorldState
+from geswarm.sim import World, WorldState
 
 from .. import palette
 from ..server.channel import Message
 from ..state.document import RuleDocument
 from ..state.insight import Insight
+from ..state.journal import Unsaved
+from ..state.states import Activity, DrawnMachine
 from ..state.verdict import RUNS, Answer
 from ..state.worth import WorthAnswer
 
@@ -142,9 +144,79 @@ def worth_message(answer: WorthAnswer) -> Message:
     }
 
 
+def states_message(drawn: DrawnMachine) -> Message:
+    """The state machine of the rules and its picture."""
+    machine = drawn.machine
+    doing = {entry.name: entry.doing for entry in machine.vocabulary.behaviours}
+    return {
+        "type": "states",
+        "svg": drawn.svg,
+        "states": [
+            {
+                "label": state.label,
+                "behaviour": state.behaviour,
+                "means": ", ".join(
+                    [doing[state.behaviour]]
+                    + [f"{name} is {str(value).lower()}" for name, value in state.internal]
+                ),
+                "initial": state.initial,
+            }
+            for state in machine.states
+        ],
+        "transitions": [
+            {
+                "source": entry.source,
+                "target": entry.target,
+                "when": str(entry.condition),
+                "rate": entry.rate,
+                "effects": list(machine.effects(entry)),
+                "rules": list(entry.rules),
+                "words": machine.describe(entry),
+            }
+            for entry in machine.transitions
+        ],
+    }
+
+
+def activity_message(activity: Activity, world: World) -> Message:
+    """What the swarm does in the state machine that was sent last."""
+    return {
+        "type": "activity",
+        "time": world.time,
+        "robots": list(activity.robots),
+        "taken": list(activity.taken),
+        "swarm": world.scenario.robots,
+    }
+
+
 def notice_message(text: str) -> Message:
     """Something that could not be done."""
     return {"type": "notice", "level": "error", "text": text}
+
+
+def stale_message(refused: Message) -> Message:
+    """A change was not made: it was meant for a version that is no longer there."""
+    return {
+        "type": "stale",
+        "version": refused.get("version"),
+        "text": "Somebody else changed the rules just then: look at them, and do it again.",
+    }
+
+
+def unsaved_message(left: Iterable[Unsaved]) -> Message:
+    """Rules that killed dashboards left; `edited` in seconds since 1970."""
+    return {
+        "type": "unsaved",
+        "left": [
+            {
+                "file": unsaved.path.name,
+                "name": unsaved.rule_set.name,
+                "rules": len(unsaved.rule_set.rules),
+                "edited": unsaved.edited,
+            }
+            for unsaved in left
+        ],
+    }
 
 
 def file_message(rule_set: RuleSet, text: str, suffix: str) -> Message:

@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geswarm.rules import FORMATS, EditError, RuleSetError, parse_text, simplify
+from geswarm.rules.findings import shown
 
 from ..server.channel import Channel, Client, Message
+from ..state.document import StaleError
 from ..state.insight import Insight
+from ..state.journal import Unsaved
 from ..state.keys import COMMANDS
 from ..state.session import Session
+from ..state.states import DrawnMachine
 from ..state.verdict import Answer
 from ..state.worth import WorthAnswer
 from . import rule_messages
+from .people import People, change_words, one_line
 
 LIVE_SECONDS = 0.1
 MAX_TEXT = 200_000
 
-_CHANGES = frozenset(
-    ("edit", "undo", "redo", "load_preset", "load_text", "set_text", "take_simplified")
-)
-_SUFFIXES = {"yaml": "yaml", "text": "rules"}
+_FOR_A_VERSION = frozenset(("edit", "undo", "redo", "set_text"))
+_CHANGES = _FOR_A_VERSION | {"load_preset", "load_text", "take_simplified", "bring_back"}
+_SUFFIXES = {"yaml": "yaml", "text": "rules", "json": "json"}
+_NO_JOURNAL = "If the dashboard is killed, rules that were not saved are lost"
 
 
 class RulePage:
@@ -38,6 +43,10 @@ class RulePage:
         self._since_live = 0.0
         self._shown_answer: Answer | None = None
         self._shown_worth: WorthAnswer | None = None
+        self._shown_machine: DrawnMachine | None = None
+        self._shown_left = session.journal.left
+        self._shown_problem = ""
+        self._people = People()
         self._carry_out: dict[str, Callable[[Client, Message], None]] = {
             "edit": self._edit,
             "undo": lambda *_: session.undo(),
@@ -54,6 +63,11 @@ class RulePage:
             "key": self._press,
             "worth_start": lambda *_: session.weigh_pieces(),
             "worth_cancel": lambda *_: session.worth.forget(session.document.version),
+            "name": self._name,
+            "bring_back": lambda _, message: session.bring_back(self._left(message)),
+            "discard": lambda _, message: session.journal.settle(
+                self._left(message), session.document.unsaved
+            ),
         }
 
     def sync(self, elapsed: float) -> None:
@@ -70,10 +84,28 @@ class RulePage:
             self._shown_worth = session.worth.answer
             if self._shown_worth is not None:
                 broadcast(rule_messages.worth_message(self._shown_worth), live=True)
+        if session.machine.drawn is not self._shown_machine:
+            self._shown_machine = session.machine.drawn
+            if self._shown_machine is not None:
+                broadcast(rule_messages.states_message(self._shown_machine), live=True)
+        self._people.sync(self.channel)
+        self._sync_journal()
         self._since_live += elapsed
         if self._since_live >= LIVE_SECONDS:
             self._since_live = 0.0
             broadcast(rule_messages.live_message(session.world.state), live=True)
+            if (activity := session.machine.activity(session.world)) is not None:
+                broadcast(rule_messages.activity_message(activity, session.world), live=True)
+
+    def _sync_journal(self) -> None:
+        journal, broadcast = self.session.journal, self.channel.broadcast
+        if journal.left != self._shown_left:
+            self._shown_left = journal.left
+            broadcast(rule_messages.unsaved_message(journal.left))
+        if journal.problem != self._shown_problem:
+            self._shown_problem = journal.problem
+            if journal.problem:
+                broadcast(rule_messages.notice_message(f"{_NO_JOURNAL}: {journal.problem}"))
 
     def _greet(self, client: Client) -> None:
         session, send = self.session, self.channel.send
@@ -83,17 +115,49 @@ class RulePage:
         send(client, rule_messages.verdict_message(session.verdict.answer), live=True)
         if session.worth.answer is not None:
             send(client, rule_messages.worth_message(session.worth.answer), live=True)
+        if session.machine.drawn is not None:
+            send(client, rule_messages.states_message(session.machine.drawn), live=True)
+        send(client, rule_messages.unsaved_message(session.journal.left))
         self.channel.welcome(client)
 
     def _receive(self, client: Client, message: Message) -> None:
-        kind, version = str(message.get("type")), self.session.document.version
+        kind = message.get("type")
+        if not isinstance(kind, str) or kind not in self._carry_out:
+            words = f"unknown message {shown(kind)}"
+            self.channel.send(client, rule_messages.notice_message(words))
+            return
         try:
-            if kind not in self._carry_out:
-                raise EditError(f"unknown message {kind!r}")
+            message = self._caught_up(message)
+        except StaleError:
+            self.channel.send(client, self._rules())
+            self.channel.send(client, rule_messages.stale_message(message))
+        else:
+            self._do(client, kind, message)
+
+    def _caught_up(self, message: Message) -> Message:
+        """A message, as it is meant now if it was sent for an earlier version of the rules.
+
+        Raises:
+            StaleError: It must not be carried out: somebody else has changed what it is about.
+        """
+        document, version, edit = self.session.document, message.get("version"), message.get("edit")
+        if message["type"] not in _FOR_A_VERSION or version == document.version:
+            return message
+        if message["type"] == "edit" and isinstance(edit, dict):
+            return {**message, "edit": document.caught_up(edit, version)}
+        raise StaleError
+
+    def _do(self, client: Client, kind: str, message: Message) -> None:
+        document = self.session.document
+        version, before = document.version, document.rule_set
+        try:
             self._carry_out[kind](client, message)
         except (EditError, RuleSetError) as error:
             self.channel.send(client, rule_messages.notice_message(str(error)))
-        if kind in _CHANGES and self.session.document.version == version:
+        if document.version != version:
+            words = change_words(message, before, document.rule_set)
+            self._people.tell_others(self.channel, client, words)
+        elif kind in _CHANGES:
             self.channel.send(client, self._rules())  # the page waits for an answer
 
     def _rules(self) -> Message:
@@ -102,23 +166,34 @@ class RulePage:
     def _edit(self, _client: Client, message: Message) -> None:
         edit = message.get("edit")
         if not isinstance(edit, dict):
-            raise EditError(f"expected an edit, got {edit!r}")
+            raise EditError(f"expected an edit, got {shown(edit)}")
         self.session.edit(edit)
 
     def _press(self, _client: Client, message: Message) -> None:
         """A key of the arena that was pressed over the table."""
         key = _text(message, "key")
         if key not in COMMANDS:
-            raise EditError(f"unknown key {key!r}; expected one of {', '.join(COMMANDS)}")
+            raise EditError(f"unknown key {shown(key)}; expected one of {', '.join(COMMANDS)}")
         COMMANDS[key](self.session)
 
     def _save(self, client: Client, message: Message) -> None:
         form = _text(message, "format")
         if form not in FORMATS:
-            raise EditError(f"unknown format {form!r}; expected one of {', '.join(FORMATS)}")
+            raise EditError(f"unknown format {shown(form)}; expected one of {', '.join(FORMATS)}")
         rule_set = self.session.document.rule_set
         text = FORMATS[form](rule_set)
         self.channel.send(client, rule_messages.file_message(rule_set, text, _SUFFIXES[form]))
+        self.session.saved()
+
+    def _name(self, client: Client, message: Message) -> None:
+        client.name = one_line(_text(message, "name")) or f"Browser {client.number}"
+
+    def _left(self, message: Message) -> Unsaved:
+        """The rules of a killed dashboard that a message is about."""
+        try:
+            return self.session.journal.find(_text(message, "file"))
+        except KeyError:
+            raise EditError("these rules have been brought back or discarded already") from None
 
     def _check_text(self, client: Client, message: Message) -> None:
         findings: list[Message] = []

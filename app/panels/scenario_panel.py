@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass
 from html import escape
@@ -52,7 +53,8 @@ class Value:
             pair = list(getattr(scenario, name))
             pair[int(part)] = value
             return {name: tuple(pair)}
-        return {name: int(value) if isinstance(getattr(scenario, name), int) else value}
+        whole = isinstance(getattr(scenario, name), int) and math.isfinite(value)
+        return {name: int(value) if whole else value}
 
 
 VALUES = (

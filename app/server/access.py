@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import hmac
 import re
+import secrets
 import socket
 from dataclasses import dataclass
 from ipaddress import ip_address
 from typing import TypeAlias
+from urllib.parse import parse_qs
 
-from websockets.datastructures import Headers
+from websockets.http11 import Request
 
 Address: TypeAlias = tuple[str, int]
 
 _AUTHORITY = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(?::([0-9]{1,5}))?", re.IGNORECASE)
 _ORIGIN = re.compile(r"(https?)://(.+)", re.IGNORECASE)
 _DEFAULT_PORTS = {"http": 80, "https": 443}
+_ELSEWHERE = {
+    "0.0.0.0": (socket.AF_INET, "192.0.2.1"),  # nosec B104
+    "::": (socket.AF_INET6, "2001:db8::1"),
+}
+"""Addresses that stand for all of this machine's, and one elsewhere, reserved for examples."""
 
 
 @dataclass(frozen=True)
@@ -24,23 +32,34 @@ class Access:
     A page of another site must neither read nor command the app: the browser's `Origin` must be
     the address that the request went to, and that address must be one of ours, or a foreign name
     that was made to resolve to this machine (DNS rebinding) would pass for it.
+
+    Attributes:
+        host: Address that the server listens on.
+        token: Only who knows it is let in; None lets in all who can reach the server.
     """
 
     host: str
+    token: str | None = None
+
+    @classmethod
+    def to_host(cls, host: str, private: bool = False) -> Access:
+        """With a new token if other machines reach `host`, or if `private` asks for one."""
+        demanded = private or not is_loopback(host)
+        return cls(host, secrets.token_urlsafe() if demanded else None)
 
     @property
     def loopback(self) -> bool:
         """True if the server can be reached from this machine only."""
         return is_loopback(self.host)
 
-    def refusal(self, headers: Headers, port: int) -> str | None:
+    def refusal(self, request: Request, port: int) -> str | None:
         """Why a request is refused, in one line, or None if it is let in.
 
         Args:
-            headers: The request's headers.
+            request: What was asked for.
             port: The port that it came in on.
         """
-        hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+        hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
         target = parse_authority(hosts[0], 80) if len(hosts) == 1 else None
         if target is None:
             return "expected exactly one Host header with a host name and port"
@@ -50,7 +69,24 @@ class Access:
             return "expected at most one Origin header"
         if origins and parse_origin(origins[0]) != target:
             return f"pages of {origins[0]} may not use this app; open it at http://{hosts[0]}"
+        if not (self._is_token(_given_token(request)) or self._is_token(_cookie(request))):
+            return "expected the token; open the whole address that geswarm-ui printed"
         return None
+
+    def cookie(self, request: Request) -> dict[str, str]:
+        """A header that gives a browser the token to keep, if its request brought it.
+
+        What the page asks for then carries it too: scripts, frames and websockets.
+        """
+        if self.token is None or not self._is_token(_given_token(request)):
+            return {}
+        cookie = f"{_cookie_name(request)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        return {"Set-Cookie": cookie}
+
+    def _is_token(self, given: str) -> bool:
+        if self.token is None:
+            return True
+        return hmac.compare_digest(given.encode(errors="replace"), self.token.encode())
 
     def _ours(self, name: str) -> bool:
         # Any port will do: one forwarded through ssh or a container differs from ours.
@@ -68,6 +104,28 @@ class Access:
         return f"this app does not answer to {given}; open it at this machine's IP address"
 
 
+def _given_token(request: Request) -> str:
+    """The token in the address, empty if there is none."""
+    return parse_qs(request.path.partition("?")[2]).get("token", [""])[0]
+
+
+def _cookie(request: Request) -> str:
+    """The token in the cookies, empty if there is none."""
+    pairs = (
+        pair.strip().partition("=")
+        for header in request.headers.get_all("Cookie")
+        for pair in header.split(";")
+    )
+    name = _cookie_name(request)
+    return next((value for key, _, value in pairs if key == name), "")
+
+
+def _cookie_name(request: Request) -> str:
+    """Cookies are kept by host alone: the port tells two dashboards of one host apart."""
+    target = parse_authority(request.headers["Host"], 80)
+    return f"geswarm-{target[1] if target else ''}"
+
+
 def parse_authority(text: str, default_port: int) -> Address | None:
     """(lower-case host without brackets, port) of `host[:port]`, or None if it is not one."""
     match = _AUTHORITY.fullmatch(text.strip())
@@ -80,6 +138,19 @@ def parse_origin(text: str) -> Address | None:
     """(host, port) of an `Origin` header, or None (`null`, a file, another scheme)."""
     match = _ORIGIN.fullmatch(text.strip())
     return match and parse_authority(match[2], _DEFAULT_PORTS[match[1].lower()])
+
+
+def machine_address(host: str) -> str:
+    """A host for addresses: `host` itself, or this machine's IP address if it stands for all."""
+    if host in _ELSEWHERE:
+        family, elsewhere = _ELSEWHERE[host]
+        try:
+            with socket.socket(family, socket.SOCK_DGRAM) as probe:
+                probe.connect((elsewhere, 9))  # chooses the way there, and sends nothing
+                host = probe.getsockname()[0]
+        except OSError:  # no network
+            host = "localhost"
+    return f"[{host}]" if ":" in host else host
 
 
 def is_loopback(host: str) -> bool:

@@ -32,11 +32,13 @@ class Client:
 
     Attributes:
         number: Counts from 1 over the life of the channel.
+        name: What the others are told who this is.
         welcome: Whether broadcasts go to it; see `Channel.welcome`.
     """
 
     def __init__(self, number: int, connection: ServerConnection) -> None:
         self.number = number
+        self.name = f"Browser {number}"
         self.welcome = False
         self._connection = connection
         self._waiting: dict[object, str] = {}

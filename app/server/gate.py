@@ -7,15 +7,17 @@ are ours, and all others go on to viser unchanged.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import inspect
 import io
 import socket
 import threading
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 from urllib.parse import unquote
 
 import viser
@@ -36,8 +38,44 @@ CONTENT_TYPES = {
     ".css": "text/css; charset=utf-8",
     ".svg": "image/svg+xml",
 }
+_MADE_TYPES = {
+    ".html": CONTENT_TYPES[".html"],
+    ".csv": "text/csv; charset=utf-8",
+    ".json": "application/json",
+}
+
+PROTECTION = {
+    "Content-Security-Policy": "frame-ancestors 'self'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",  # the address may hold the token
+}
+"""Headers of every answer, unless it has stricter ones."""
+
+_ALONE = (
+    "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'"
+)
+"""Policy of made files: no access to anything, the dashboard that serves them included."""
 
 _construction = threading.Lock()
+
+
+@dataclass(frozen=True)
+class MadeFile:
+    """A file that the app makes when it is asked for.
+
+    Attributes:
+        suffix: Of its kind: .html, .csv or .json.
+        body: Its content.
+    """
+
+    suffix: str
+    body: bytes
+
+
+MadeFiles: TypeAlias = Callable[[str], "MadeFile | None"]
+"""The file of a name, or None if there is none; called on a thread of its own."""
 
 
 class ServerError(RuntimeError):
@@ -50,12 +88,23 @@ class _Server(viser.ViserServer):
     def request_share_url(self, verbose: bool = True) -> str | None:  # noqa: ARG002
         return None
 
+    def stop(self) -> None:
+        with contextlib.redirect_stdout(io.StringIO()):  # viser says that it has stopped
+            super().stop()
+
 
 class Gate:
     """What stands between the port and viser."""
 
-    def __init__(self, access: Access, pages: Mapping[str, Channel], static: Path) -> None:
+    def __init__(
+        self,
+        access: Access,
+        pages: Mapping[str, Channel],
+        static: Path,
+        made: Mapping[str, MadeFiles],
+    ) -> None:
         self.access = access
+        self.made = {f"/{page}/files/": files for page, files in made.items()}
         self.sockets = {f"/{page}/socket": channel for page, channel in pages.items()}
         self.folders = [static / name for name in (COMMON, *pages)]
         self.open = False
@@ -90,45 +139,70 @@ class Gate:
         async def process(connection: ServerConnection, request: Request) -> Response | None:
             if not self.open:
                 return _plain(HTTPStatus.SERVICE_UNAVAILABLE, "the app is starting")
-            refusal = self.access.refusal(request.headers, connection.local_address[1])
+            refusal = self.access.refusal(request, connection.local_address[1])
             if refusal is not None:
                 return _plain(HTTPStatus.FORBIDDEN, refusal)
-            path = _path(request)
-            if path in self.sockets and request.headers.get_all("Upgrade") == ["websocket"]:
-                return None
-            for folder in self.folders:
-                if path.startswith(f"/{folder.name}/"):
-                    return static_response(folder, path, request.headers["Host"])
-            answer = viser_process(connection, request)
-            response: Response | None = await answer if inspect.isawaitable(answer) else answer
+            response = await self._made(request) or self._static(request)
+            if response is None and _path(request) not in self.sockets:
+                answer = viser_process(connection, request)
+                response = await answer if inspect.isawaitable(answer) else answer
             if response is not None:
-                response.headers["Content-Security-Policy"] = "frame-ancestors 'self'"
+                cookie = self.access.cookie(request)
+                for name, value in {**PROTECTION, **cookie}.items():
+                    response.headers.setdefault(name, value)
             return response
 
         return process
 
+    async def _made(self, request: Request) -> Response | None:
+        """Answer to a request for a file that a page makes; None if it is something else."""
+        path = _path(request)
+        for prefix, files in self.made.items():
+            if path.startswith(prefix):
+                file = await asyncio.to_thread(files, path.removeprefix(prefix))
+                if file is None:
+                    return _plain(HTTPStatus.NOT_FOUND, "not found")
+                policy = {"Content-Security-Policy": _ALONE}
+                return _response(HTTPStatus.OK, _MADE_TYPES[file.suffix], file.body, policy)
+        return None
+
+    def _static(self, request: Request) -> Response | None:
+        """Answer to a request for a file of ours; None for a websocket, or if it is viser's."""
+        path = _path(request)
+        if path in self.sockets and request.headers.get_all("Upgrade") == ["websocket"]:
+            return None
+        for folder in self.folders:
+            if path.startswith(f"/{folder.name}/"):
+                return static_response(folder, path, request.headers["Host"])
+        return None
+
 
 def open_server(
-    host: str, port: int, pages: Mapping[str, Channel], label: str
+    access: Access,
+    port: int,
+    pages: Mapping[str, Channel],
+    label: str,
+    made: Mapping[str, MadeFiles] | None = None,
 ) -> viser.ViserServer:
     """Start viser behind the gate.
 
     Args:
-        host: Address to listen on; a loopback address lets in this machine only.
+        access: Address to listen on, and who is let in.
         port: Port to listen on, 0 for any free one. viser takes the next free one if it is busy:
             `get_port()` of the result tells which.
         pages: Our own pages: the name of a folder of static/, served as `/<name>/`, and what
             handles the websocket `/<name>/socket`.
         label: Title of the control panel.
+        made: Of pages that make files, served as `/<name>/files/...`: what makes them.
 
     Raises:
         ServerError: The address cannot be listened on, or this version of viser starts its server
             in a way that the gate does not know.
     """
-    if host == "localhost":
-        host = "127.0.0.1"  # else two sockets, and any machine without IPv6 would fail on one
+    # Else two sockets, and any machine without IPv6 would fail on one.
+    host = "127.0.0.1" if access.host == "localhost" else access.host
     _check_address(host, port)
-    gate = Gate(Access(host), pages, static_folder())
+    gate = Gate(access, pages, static_folder(), made or {})
     with _construction, _wrapped_serve(gate), contextlib.redirect_stdout(io.StringIO()):
         # viser's banner is kept quiet: the app prints the address itself.
         server = _Server(host=host, port=port, label=label, verbose=False)
@@ -198,7 +272,7 @@ def static_response(folder: Path, path: str, host: str) -> Response:
         HTTPStatus.OK,
         CONTENT_TYPES[entry.suffix],
         entry.read_bytes(),
-        {"Content-Security-Policy": policy, "Referrer-Policy": "no-referrer"},
+        {"Content-Security-Policy": policy},
     )
 
 
@@ -211,8 +285,8 @@ def _response(status: HTTPStatus, kind: str, body: bytes, more: dict[str, str]) 
         "Content-Type": kind,
         "Content-Length": str(len(body)),
         "Cache-Control": "no-store",
-        "X-Content-Type-Options": "nosniff",
         "Connection": "close",
+        **PROTECTION,
         **more,
     }
     return Response(status.value, status.phrase, Headers(headers), body)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from geswarm.rules import Rule, RuleSet, apply_edit
 
 MAX_HISTORY = 1000
+MAX_LATE = 100
+"""Versions by which an edit may be late, and still find the rule it was meant for."""
+
+
+class StaleError(Exception):
+    """What an edit was meant for is no longer there, or no longer what it was."""
 
 
 class RuleDocument:
@@ -17,14 +25,16 @@ class RuleDocument:
         rule_set: As it stands now.
         version: Counts the changes; never goes back, not even by undo.
         loaded: The rule set that was loaded last, for comparison.
+        saved: The rule set that was saved last; at first the one loaded.
     """
 
     def __init__(self, rule_set: RuleSet) -> None:
         self.rule_set = rule_set
         self.version = 1
-        self.loaded = rule_set
+        self.loaded = self.saved = rule_set
         self._past: list[RuleSet] = []
         self._future: list[RuleSet] = []
+        self._recent = deque([rule_set], MAX_LATE + 1)
 
     @property
     def can_undo(self) -> bool:
@@ -35,6 +45,11 @@ class RuleDocument:
     def can_redo(self) -> bool:
         """True if there is a change to make again."""
         return bool(self._future)
+
+    @property
+    def unsaved(self) -> RuleSet | None:
+        """The rules, if a crash would lose them; None if they are as loaded or saved."""
+        return None if self.rule_set in (self.loaded, self.saved) else self.rule_set
 
     @property
     def before(self) -> RuleSet | None:
@@ -49,6 +64,17 @@ class RuleDocument:
             EditError: It cannot be made; the document is untouched.
         """
         self.replace(apply_edit(self.rule_set, edit))
+
+    def caught_up(self, edit: dict[str, Any], version: object) -> dict[str, Any]:
+        """An edit that was meant for an earlier version, as it is meant for this one.
+
+        Raises:
+            StaleError: Its rule has gone or been changed meanwhile, or the version is unknown.
+        """
+        late = self.version - version if isinstance(version, int) else -1
+        if not 0 <= late < len(self._recent):
+            raise StaleError
+        return _moved(edit, self._recent[-1 - late].rules, self.rule_set.rules)
 
     def load(self, rule_set: RuleSet) -> None:
         """Put a rule set from elsewhere in place; differences are counted from it."""
@@ -78,6 +104,30 @@ class RuleDocument:
     def _show(self, rule_set: RuleSet) -> None:
         self.rule_set = rule_set
         self.version += 1
+        self._recent.append(rule_set)
+
+
+def _moved(edit: dict[str, Any], before: Sequence[Rule], now: Sequence[Rule]) -> dict[str, Any]:
+    """The same edit, with the places of its rules as they are now."""
+    moved = dict(edit)
+    key = "at" if edit.get("do") in ("add_rule", "paste_rules") else "rule"
+    if key in edit:
+        moved[key] = _place(edit[key], before, now)
+    if isinstance(edit.get("to"), int):
+        moved["to"] = min(edit["to"], len(now) - 1)
+    return moved
+
+
+def _place(place: object, before: Sequence[Rule], now: Sequence[Rule]) -> int:
+    """Where a rule is now; behind the last one stays behind the last one."""
+    if place == len(before):
+        return len(now)
+    if not isinstance(place, int) or not 0 <= place < len(before):
+        raise StaleError
+    same = [at for at, rule in enumerate(now) if rule == before[place]]
+    if not same:
+        raise StaleError
+    return same[min(before[:place].count(before[place]), len(same) - 1)]
 
 
 def bare_rules(rule_set: RuleSet) -> tuple[Rule, ...]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 
-from geswarm.experiment import EvolutionRun, RunConfig, evaluate_rule_sets
-from geswarm.ge import GenerationRecord
+from geswarm.experiment import EvolutionRun, InjectionError, RunConfig, evaluate_rule_sets
+from geswarm.ge import GenerationRecord, Settings, SettingsError
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import EvaluationStopped, Scenario
 
@@ -38,6 +38,8 @@ class EvolutionThread:
         phase: What it is doing.
         error: Why it failed, else empty.
         directory: Of the present or last run.
+        run: The run under way, if there is one; see `EvolutionRun` for what threads may do with it.
+        settings: The run's, as they will be in the next generation.
         generations: How many the run will have.
         history: Records of all generations so far.
         best: The best rule set so far.
@@ -49,6 +51,8 @@ class EvolutionThread:
         self.phase = Phase.IDLE
         self.error = ""
         self.directory: Path | None = None
+        self.run: EvolutionRun | None = None
+        self.settings: Settings | None = None
         self.generations = 0
         self.history: tuple[GenerationRecord, ...] = ()
         self.best: RuleSet | None = None
@@ -62,9 +66,22 @@ class EvolutionThread:
         """A run is under way, paused or not."""
         return self.phase in (Phase.RUNNING, Phase.PAUSED)
 
-    def start(self, config: RunConfig, directory: Path) -> None:
-        """Begin a run in a new directory; any run under way is stopped first."""
-        self._launch(lambda: EvolutionRun.create(config, directory), directory)
+    def start(self, config: RunConfig, directory: Path, first: RuleSet | None = None) -> None:
+        """Begin a run in a new directory; any run under way is stopped first.
+
+        Args:
+            config: Of the run.
+            directory: Where it is kept.
+            first: Rules that enter the first generation.
+        """
+
+        def begin() -> EvolutionRun:
+            run = EvolutionRun.create(config, directory)
+            if first is not None:
+                run.inject(first)
+            return run
+
+        self._launch(begin, directory)
 
     def resume(self, directory: Path) -> None:
         """Continue the run of a directory; any run under way is stopped first."""
@@ -82,6 +99,27 @@ class EvolutionThread:
             self.phase = Phase.RUNNING
             self._go_on.set()
 
+    def steer(self, **changes: float) -> None:
+        """Change settings of the run from the next generation on.
+
+        Raises:
+            SettingsError: There is no run, no such setting, or a value cannot be used.
+        """
+        if self.run is None or self.settings is None:
+            raise SettingsError(["no evolution is running: start or resume one to steer it"])
+        self.run.steer(**changes)
+        self.settings = self.settings.steered(**changes)
+
+    def inject(self, rule_set: RuleSet) -> None:
+        """Have rules enter the run with the next generation.
+
+        Raises:
+            InjectionError: There is no run, or they cannot enter it.
+        """
+        if self.run is None:
+            raise InjectionError("no evolution is running: start or resume one to inject rules")
+        self.run.inject(rule_set)
+
     def stop(self, timeout: float = 10.0) -> None:
         """End the run; it can be resumed from its directory."""
         self._stop.set()
@@ -89,13 +127,19 @@ class EvolutionThread:
         if self._thread is not None:
             self._thread.join(timeout)
 
+    def forget(self) -> None:
+        """Know nothing of the last run, as before the first one."""
+        self.error, self.directory = "", None
+        self.history, self.best, self.references = (), None, {}
+        self.generations, self.settings = 0, None
+        self.phase = Phase.IDLE
+
     def _launch(self, open_run: Callable[[], EvolutionRun], directory: Path) -> None:
         self.stop()
         self._stop, self._go_on = threading.Event(), threading.Event()
         self._go_on.set()
-        self.error, self.directory = "", directory
-        self.history, self.best, self.references = (), None, {}
-        self.phase = Phase.RUNNING
+        self.forget()
+        self.directory, self.phase = directory, Phase.RUNNING
         self._thread = threading.Thread(
             target=self._work, args=(open_run,), name="evolution", daemon=True
         )
@@ -104,10 +148,13 @@ class EvolutionThread:
     def _work(self, open_run: Callable[[], EvolutionRun]) -> None:
         run = None
         try:
-            run = open_run()
-            self.generations = run.config.settings.generations
+            run = self.run = open_run()
             self.history, self.best = tuple(run.history), run.best
-            self._evaluate_references(run.config.scenario)
+            self.generations, self.settings = run.config.settings.generations, run.settings
+            for name, mean in evaluate_references(
+                run.config.scenario, self.workers, self._stop.is_set
+            ):
+                self.references = {**self.references, name: mean}
             self._evolve(run)
             self.phase = Phase.FINISHED if run.finished else Phase.STOPPED
         except EvaluationStopped:
@@ -116,19 +163,9 @@ class EvolutionThread:
             self.error = f"{type(error).__name__}: {error}"
             self.phase = Phase.FAILED
         finally:
+            self.run = None
             if run is not None:
                 run.close()
-
-    def _evaluate_references(self, scenario: Scenario) -> None:
-        for name in REFERENCES:
-            (evaluation,) = evaluate_rule_sets(
-                [load_preset(name)],
-                scenario,
-                REFERENCE_RUNS,
-                workers=self.workers,
-                stop=self._stop.is_set,
-            )
-            self.references = {**self.references, name: evaluation.mean}
 
     def _evolve(self, run: EvolutionRun) -> None:
         def after_generation(record: GenerationRecord) -> None:
@@ -138,3 +175,18 @@ class EvolutionThread:
 
         self._go_on.wait()
         run.run(self.workers, after_generation, self._stop.is_set)
+
+
+def evaluate_references(
+    scenario: Scenario, workers: int, stop: Callable[[], bool]
+) -> Iterator[tuple[str, float]]:
+    """What the presets collect in a scenario: name and mean, one after the other.
+
+    Raises:
+        EvaluationStopped: `stop` returned True.
+    """
+    for name in REFERENCES:
+        (evaluation,) = evaluate_rule_sets(
+            [load_preset(name)], scenario, REFERENCE_RUNS, workers=workers, stop=stop
+        )
+        yield name, evaluation.mean

@@ -8,11 +8,12 @@ from functools import cache
 from geswarm.rules import RuleSet, load_preset
 
 from .document import RuleDocument
-from .evolution import EvolutionThread
+from .runs import Runs
 from .swarm import Swarm
 
 BEFORE = "before the last edit"
 BEST = "best of the run"
+CHOSEN = "individual clicked"
 
 
 @dataclass
@@ -34,11 +35,13 @@ def _presets() -> tuple[RuleSet, ...]:
     return tuple(load_preset(name) for name in ("hand-coded", "evo8"))
 
 
-def rivals_offered(document: RuleDocument, evolution: EvolutionThread) -> dict[str, RuleSet]:
+def rivals_offered(document: RuleDocument, runs: Runs) -> dict[str, RuleSet]:
     """The rule sets that there are to compare with now, by name for people."""
     offered = {preset.name: preset for preset in _presets()}
     if document.before is not None:
         offered[BEFORE] = document.before
-    if evolution.best is not None:
-        offered[BEST] = evolution.best
+    if runs.evolution.best is not None:
+        offered[BEST] = runs.evolution.best
+    if runs.chosen is not None:
+        offered[CHOSEN] = runs.chosen.rule_set
     return offered

@@ -16,11 +16,16 @@ from typing import Any, TypeAlias
 from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
 from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World
 
+from .campaigns import Campaigns
+from .comparison import Comparison
 from .document import RuleDocument, bare_rules
 from .evolution import EvolutionThread
 from .insight import InsightFinder
+from .journal import Journal, Unsaved
 from .playback import Playback
 from .rival import BEFORE, Rival, rivals_offered
+from .runs import Runs
+from .states import MachineDrawer
 from .swarm import Swarm
 from .trace import SAMPLE_STEPS, Trace
 from .verdict import Question, Verdict
@@ -48,14 +53,19 @@ class Session:
         scenario: Where the swarm forages: as loaded, or changed since.
         scenario_problem: Why the last change of it was refused, else empty.
         document: The rules being edited; the world runs them as they stand.
+        journal: What of them would be lost in a crash, and what was left by earlier ones.
         world: The swarm.
         rival: The swarm beside it, if there is one.
         trace: Where the robots have been.
         playback: Play, pause, speed.
         evolution: The background evolution.
+        runs: Its runs: the next, the present and those that are kept.
+        comparison: Any rule sets in any scenarios.
+        campaigns: The paper's experiments, repeated.
         verdict: What the last change did to the score.
         worth: What each piece of the rules is worth, once asked for.
         insight: What can be said of the rules without running them.
+        machine: Their state machine, drawn.
         scenario_version: Grows when the scenario changes.
         shown: What is drawn besides robots and objects.
         selected: Index of the robot that is looked at, if any.
@@ -64,20 +74,30 @@ class Session:
     """
 
     def __init__(
-        self, scenario: Scenario, rule_set: RuleSet, evolution: EvolutionThread, seed: int = 0
+        self,
+        scenario: Scenario,
+        rule_set: RuleSet,
+        evolution: EvolutionThread,
+        seed: int = 0,
+        journal: Journal | None = None,
     ) -> None:
         self.loaded = self.scenario = scenario
         self.scenario_problem = ""
         self.document = RuleDocument(rule_set)
+        self.journal = journal or Journal(None)
         self.world = World(scenario, rule_set, seed)
         self.rival: Rival | None = None
         self.trace = Trace(scenario, self.world.state)
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
+        self.runs = Runs(evolution, rule_set)
+        self.comparison = Comparison(evolution.workers)
+        self.campaigns = Campaigns(evolution)
         self.scenario_version = 1
         self.verdict = Verdict(evolution.workers)
         self.worth = WorthOfPieces(evolution.workers)
         self.insight = InsightFinder()
+        self.machine = MachineDrawer()
         self.shown = Shown()
         self.selected: int | None = None
         self.following = False
@@ -85,6 +105,7 @@ class Session:
         self._swarm = Swarm(self.world)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.insight.look_into(self.document.version, rule_set)
+        self.machine.draw(rule_set)
         self._judge()
 
     # --- the loop -----------------------------------------------------------------------------
@@ -220,7 +241,7 @@ class Session:
 
     def rivals_offered(self) -> tuple[str, ...]:
         """Names of the rule sets that there are to compare with now."""
-        return tuple(rivals_offered(self.document, self.evolution))
+        return tuple(rivals_offered(self.document, self.runs))
 
     def compare_with(self, name: str | None) -> None:
         """Run another rule set beside this one, both from the start; None ends it.
@@ -231,13 +252,13 @@ class Session:
         if name is None:
             self.rival = None
             return
-        rule_set = rivals_offered(self.document, self.evolution)[name]
+        rule_set = rivals_offered(self.document, self.runs)[name]
         self.rival = Rival(name, Swarm(World(self.scenario, rule_set, self.world.seed)))
         self.reset()
 
     def _rules_of(self, rival: Rival) -> RuleSet:
         """The rules that the rival's name stands for now; its old ones if there are none."""
-        offered = rivals_offered(self.document, self.evolution)
+        offered = rivals_offered(self.document, self.runs)
         return offered.get(rival.name, rival.swarm.world.rule_set)
 
     # --- commands: hands in the arena ---------------------------------------------------------
@@ -324,6 +345,17 @@ class Session:
         self.document.replace(read_rule_set(text))
         self._follow_document()
 
+    def saved(self) -> None:
+        """Somebody has the rules in a file."""
+        self.document.saved = self.document.rule_set
+        self.journal.keep(self.document.unsaved)
+
+    def bring_back(self, unsaved: Unsaved) -> None:
+        """Put rules that a killed dashboard left in place; undo takes them out again."""
+        self.document.replace(unsaved.rule_set)
+        self.journal.settle(unsaved, self.document.unsaved)
+        self._follow_document()
+
     def simplify(self) -> None:
         """Put the shortest rules with exactly the same behaviour in place."""
         self.document.replace(simplify(self.document.rule_set).rule_set)
@@ -334,17 +366,15 @@ class Session:
         document = self.document
         self.worth.ask(WorthQuestion(document.version, document.rule_set, self.scenario))
 
-    def load_best(self) -> None:
-        """Load the best rule set that evolution has found so far, if there is one."""
-        if (best := self.evolution.best) is not None:
-            self.load(best)
-
     def _follow_document(self) -> None:
         document = self.document
+        self.journal.keep(document.unsaved)
         self.insight.look_into(document.version, document.rule_set)
+        self.runs.follow(document.rule_set)
         if bare_rules(document.rule_set) == bare_rules(self.world.rule_set):
             return  # only words have changed
         self.world.set_rules(document.rule_set)
+        self.machine.draw(document.rule_set)
         if self.rival is not None and self.rival.name == BEFORE:
             self.rival.swarm.world.set_rules(self._rules_of(self.rival))
         self._judge()
@@ -359,6 +389,11 @@ class Session:
     def close(self) -> None:
         """Stop everything that runs in the background."""
         self.evolution.stop()
+        self.runs.close()
+        self.comparison.close()
+        self.campaigns.close()
         self.verdict.close()
         self.worth.close()
         self.insight.close()
+        self.machine.close()
+        self.journal.close()

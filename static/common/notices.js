@@ -3,8 +3,12 @@
 import { h, icon, iconButton } from "./dom.js";
 
 const INFO_STAYS = 6000;
+const OTHERS_STAY = 5000;
 
 export class Notices {
+  #told = 0;
+  #timer = null;
+
   /** @param {Element} root */
   constructor(root) {
     this.list = h("div", { class: "notice-list" });
@@ -14,7 +18,8 @@ export class Notices {
       h("span", { class: "spinner", "aria-hidden": "true" }),
       h("span", { class: "notice-text" }, "Connection lost, reconnecting… What you type is kept."),
     );
-    root.append(this.offline, this.list);
+    this.others = h("div", { class: "others", role: "status", "data-testid": "others", hidden: true });
+    root.append(this.offline, this.list, this.others);
   }
 
   /**
@@ -40,6 +45,22 @@ export class Notices {
     }
     this.list.append(notice);
     if (level === "info") setTimeout(() => notice.remove(), INFO_STAYS);
+  }
+
+  /**
+   * Say at the lower edge what somebody else did; the newest stands for all that have just been.
+   *
+   * @param {string} who
+   * @param {string} what
+   */
+  tell(who, what) {
+    const count = this.others.hidden ? 1 : this.#told + 1;
+    this.#told = count;
+    const more = count > 1 ? h("span", { class: "count" }, `${count} changes`) : "";
+    this.others.replaceChildren(h("b", {}, who), ` ${what} `, more);
+    this.others.hidden = false;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => (this.others.hidden = true), OTHERS_STAY);
   }
 
   connected(yes) {

@@ -12,6 +12,8 @@ import { h, identify } from "./dom.js";
  */
 
 export class Tabs {
+  #kept = null;
+
   /**
    * @param {Tab[]} tabs The first is shown at the start.
    * @param {...Node} always Shown beside every tab's tools.
@@ -43,6 +45,18 @@ export class Tabs {
       this.tools[i].hidden = !selected;
       if (selected) shown?.();
     });
+    if (this.#kept) sessionStorage.setItem(this.#kept, this.tabs[at].id);
+  }
+
+  /**
+   * Show the tab that was in view before this page was loaded again, and remember which is.
+   *
+   * @param {string} key Under which it is kept.
+   */
+  remember(key) {
+    const at = this.tabs.findIndex(({ id }) => id === sessionStorage.getItem(key));
+    if (at > 0) this.show(at);
+    this.#kept = key;
   }
 
   /** A number or sign behind a tab's label; empty for none. */

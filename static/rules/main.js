@@ -12,10 +12,13 @@ import { Header, download } from "./header.js";
 import { Help } from "./help.js";
 import { listenToKeys } from "./keyboard.js";
 import { Live } from "./live.js";
+import { People } from "./people.js";
 import { Session } from "./session.js";
 import { Simplify } from "./simplify.js";
+import { StatesTab } from "./states.js";
 import { RuleTable } from "./table.js";
 import { TextTab } from "./text.js";
+import { UnsavedRules } from "./unsaved.js";
 import { Verdict } from "./verdict.js";
 import { Worth } from "./worth.js";
 
@@ -31,6 +34,9 @@ const verdict = new Verdict();
 const table = new RuleTable(element("table"), session);
 const grid = new Grid(element("table"), table);
 const worth = new Worth(session, table);
+const people = new People(session);
+const unsaved = new UnsavedRules(element("notices"), session);
+const states = new StatesTab(element("states"), session, table, () => tabs.show(0));
 const simplify = new Simplify(session);
 const help = new Help();
 const text = new TextTab(element("text"), session, (draft) => tabs.badge("text", draft ? "edited" : ""));
@@ -42,13 +48,15 @@ const tabs = new Tabs(
       label: "Table",
       panel: element("table"),
       tools: [worth.node, simplify.button, wordsSwitch()],
+      shown: () => states.tableShown(),
     },
+    { id: "states", label: "States", panel: element("states"), tools: [] },
     { id: "text", label: "Text", panel: element("text"), tools: text.tools, shown: () => text.shown() },
     { id: "changes", label: "Changes", panel: element("changes"), tools: [changes.back], shown: () => changes.shown() },
   ],
   help.button,
 );
-const header = new Header(element("header"), session, notices, live.node, verdict.node, tabs.node, worth.legend);
+const header = new Header(element("header"), session, notices, people.button, live.node, verdict.node, tabs.node, worth.legend);
 let resend = false;
 
 const handlers = {
@@ -73,11 +81,20 @@ const handlers = {
     resend = false;
   },
   live: (message) => live.update(message, table.cards),
+  states: (message) => states.update(message),
+  activity: (message) => states.live(message),
   verdict: (message) => verdict.update(message),
   worth: (message) => worth.update(message),
   simplified: (message) => simplify.offer(message),
   text_findings: (message) => text.showFindings(message),
   file: download,
+  people: (message) => people.update(message),
+  changed: ({ who, what }) => notices.tell(who, what),
+  unsaved: ({ left }) => unsaved.update(left),
+  stale({ version, text: words }) {
+    notices.show("error", words);
+    text.tooLate(version);
+  },
   notice({ level, text: words }) {
     notices.show(level, words);
     if (level !== "error") return;
@@ -87,7 +104,10 @@ const handlers = {
 };
 
 const socket = new Socket(socketAddress(), {
-  opened: () => notices.connected(true),
+  opened() {
+    notices.connected(true);
+    people.introduce();
+  },
   closed() {
     notices.connected(false);
     session.disconnected();
@@ -97,6 +117,7 @@ const socket = new Socket(socketAddress(), {
   message: (message) => handlers[message.type]?.(message),
 });
 
+tabs.remember("geswarm-tab");
 listenToKeys(session, table, grid, help);
 listenToClipboard(session, table, notices);
 
@@ -104,9 +125,12 @@ listenToClipboard(session, table, notices);
 function wordsSwitch() {
   const attributes = { type: "button", class: "quiet", "aria-pressed": "false", "data-testid": "in-words" };
   const button = h("button", { ...attributes, title: "Show every rule as a sentence" }, "In words");
-  button.addEventListener("click", () => {
-    const on = element("table").classList.toggle("in-words");
+  const show = (on) => {
+    element("table").classList.toggle("in-words", on);
     button.setAttribute("aria-pressed", String(on));
-  });
+    sessionStorage.setItem("geswarm-words", on);
+  };
+  button.addEventListener("click", () => show(button.getAttribute("aria-pressed") !== "true"));
+  show(sessionStorage.getItem("geswarm-words") === "true");
   return button;
 }

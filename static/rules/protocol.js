@@ -54,6 +54,34 @@
  * @property {number[]} behaviours Robots in each behaviour, in the order of the vocabulary.
  * @property {number} robots
  *
+ * @typedef {object} MachineState
+ * @property {string} label
+ * @property {string} behaviour
+ * @property {string} means What robots in it do, in words.
+ * @property {boolean} initial
+ *
+ * @typedef {object} Transition
+ * @property {number} source Index of a state.
+ * @property {number} target
+ * @property {string} when Its condition.
+ * @property {string} rate Probability per control step and mean waiting time, in words.
+ * @property {string[]} effects What it does besides, in words.
+ * @property {number[]} rules Numbers of the rules behind it, from 1.
+ * @property {string} words All of this in a line.
+ *
+ * @typedef {object} StatesMessage
+ * @property {"states"} type
+ * @property {string} svg Drawn by geswarm.rules.exports.brief_svg.
+ * @property {MachineState[]} states
+ * @property {Transition[]} transitions
+ *
+ * @typedef {object} ActivityMessage What the swarm does in the machine sent last.
+ * @property {"activity"} type
+ * @property {number} time Simulated time, s.
+ * @property {number} swarm Robots in all.
+ * @property {number[]} robots In each state.
+ * @property {number[]} taken How often each transition was taken since the rules were set.
+ *
  * @typedef {"current" | "before" | "evo8" | "hand-coded"} Role
  * @typedef {{role: Role, name: string, collected: number[]}} Sample Collected objects of each run.
  *
@@ -100,6 +128,21 @@
  * @typedef {{type: "text_findings", findings: TextFinding[]}} TextFindingsMessage
  *
  * @typedef {{type: "file", name: string, text: string}} FileMessage
+ * @typedef {{type: "people", people: {name: string, you: boolean}[]}} PeopleMessage
+ * @typedef {{type: "changed", who: string, what: string}} ChangedMessage Somebody else did that.
+ *
+ * @typedef {object} StaleMessage A change was not made: it was meant for another version.
+ * @property {"stale"} type
+ * @property {number} version The one that it was meant for.
+ * @property {string} text
+ *
+ * @typedef {object} Unsaved Rules of a dashboard that was killed.
+ * @property {string} file
+ * @property {string} name
+ * @property {number} rules How many.
+ * @property {number} edited Seconds since 1970.
+ * @typedef {{type: "unsaved", left: Unsaved[]}} UnsavedMessage
+ *
  * @typedef {{type: "notice", level: "error" | "info", text: string}} NoticeMessage
  *
  * @typedef {object} Edit

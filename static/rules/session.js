@@ -1,7 +1,8 @@
 /** What the server last said, and the edits on their way to it. */
 
 const PATIENCE = 3000;
-const ANSWERED = new Set(["edit", "set_text", "take_simplified"]);
+const FOR_A_VERSION = new Set(["edit", "undo", "redo", "set_text"]);
+const ANSWERED = new Set([...FOR_A_VERSION, "take_simplified"]);
 
 export class Session {
   /** @type {?import("./protocol.js").Vocabulary} */
@@ -51,12 +52,12 @@ export class Session {
   edit(make) {
     return this.#post(() => {
       const edit = make();
-      return edit && { type: "edit", version: this.state.version, edit };
+      return edit && { type: "edit", edit };
     });
   }
 
   /**
-   * Send a message that does not depend on a version, in order with the edits.
+   * Send a message in order with the edits.
    *
    * @param {object} message
    */
@@ -95,7 +96,9 @@ export class Session {
 
   #go(make) {
     const message = make();
-    if (!message || !this.send(message)) return;
+    if (!message) return;
+    const { version } = this.state;
+    if (!this.send(FOR_A_VERSION.has(message.type) ? { ...message, version } : message)) return;
     if (ANSWERED.has(message.type)) this.#timer = setTimeout(() => this.settled(), PATIENCE);
   }
 }

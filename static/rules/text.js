@@ -49,6 +49,7 @@ class Backdrop {
 export class TextTab {
   #stored = "";
   #sent = null;
+  #applied = {};
   #timer = null;
   #findings = [];
 
@@ -96,6 +97,18 @@ export class TextTab {
   /** The server could not do something: what was sent is a draft again. */
   refused() {
     this.#sent = null;
+  }
+
+  /**
+   * Somebody else changed the rules before the text that was applied got there: it is a draft again.
+   *
+   * @param {number} version The one that it was meant for.
+   */
+  tooLate(version) {
+    if (version !== this.#applied.version) return;
+    this.area.value = this.#applied.text;
+    this.meanwhile.hidden = false;
+    this.#refresh();
   }
 
   /** The tab comes into view. */
@@ -165,6 +178,7 @@ export class TextTab {
   #apply() {
     if (this.apply.disabled) return;
     const text = this.area.value;
+    this.#applied = { version: this.session.state.version, text };
     if (this.session.command({ type: "set_text", text })) this.#sent = text;
   }
 

@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from geswarm.app.server.access import Access
 from geswarm.app.server.channel import Channel
 from geswarm.app.server.gate import open_server
 
@@ -20,6 +21,12 @@ CHROMIUM_FLAGS = (
     "--disable-sync",
 )
 VIEWPORT = {"width": 1200, "height": 800}
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _no_journal_at_home(tmp_path_factory):
+    """Dashboards of tests leave nothing where the user's own look for it."""
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.mktemp("state"))
 
 
 @pytest.fixture(scope="session")
@@ -67,6 +74,6 @@ def channel():
 @pytest.fixture
 def server(channel):
     """viser behind the gate on a free port of the loopback address."""
-    server = open_server("127.0.0.1", 0, {"rules": channel}, "test")
+    server = open_server(Access("127.0.0.1"), 0, {"rules": channel}, "test")
     yield server
     server.stop()

@@ -12,12 +12,15 @@ from websockets.datastructures import Headers
 from websockets.http11 import Response
 
 import geswarm
+from geswarm.app.panels import rule_messages
 from geswarm.app.state.document import RuleDocument
+from geswarm.app.state.states import DrawnMachine
 from geswarm.rules import (
     FORAGING,
     EditError,
     RuleSet,
     RuleSetError,
+    StateMachine,
     apply_edit,
     check,
     format_text,
@@ -27,6 +30,7 @@ from geswarm.rules import (
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
+from geswarm.rules.exports import brief_svg
 
 STATIC = Path(geswarm.__file__).resolve().parent.parent / "static"
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src *"
@@ -145,6 +149,17 @@ class RulesServer:
             }
         )
 
+    def states(self):
+        """The state machine of the rules as they are now."""
+        machine = StateMachine.of(self.document.rule_set)
+        drawn = DrawnMachine(self.document.rule_set, machine, brief_svg(machine))
+        self.push(rule_messages.states_message(drawn))
+
+    def activity(self, time, robots, taken, swarm=4):
+        self.push(
+            {"type": "activity", "time": time, "robots": robots, "taken": taken, "swarm": swarm}
+        )
+
     def rules(self):
         rules = self.document.rule_set.rules
         findings = [
@@ -200,7 +215,9 @@ class RulesServer:
     def _answer(self, message):
         match message:
             case {"type": "edit", "version": version} if version != self.document.version:
-                self.push({"type": "notice", "level": "error", "text": f"stale {version}"})
+                self.push(self.rules())
+                self.push({"type": "stale", "version": version, "text": "too late"})
+                return
             case {"type": "edit", "edit": {"do": "paste_rules", "at": at, "text": text}}:
                 rules = self.document.rule_set.rules
                 pasted = parse_text(text).rules

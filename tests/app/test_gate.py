@@ -12,6 +12,7 @@ from websockets.asyncio.server import serve
 
 from geswarm.app.server import channel as channel_module
 from geswarm.app.server import gate
+from geswarm.app.server.access import Access
 from geswarm.app.server.channel import MAX_MESSAGE_BYTES, Channel
 from geswarm.app.server.gate import ServerError, open_server
 
@@ -294,7 +295,7 @@ def test_stuck_page_is_cut_off_and_slows_no_other(server, channel, monkeypatch):
 
 def test_busy_port_becomes_the_next_and_is_told(server, channel):
     port = server.get_port()
-    second = open_server("127.0.0.1", port, {"rules": channel}, "second")
+    second = open_server(Access("127.0.0.1"), port, {"rules": channel}, "second")
     try:
         assert second.get_port() > port
         assert get(second, "/")[0] == 200
@@ -303,7 +304,7 @@ def test_busy_port_becomes_the_next_and_is_told(server, channel):
 
 
 def test_localhost_is_the_loopback_address(channel):
-    server = open_server("localhost", 0, {"rules": channel}, "test")
+    server = open_server(Access("localhost"), 0, {"rules": channel}, "test")
     try:
         assert get(server, "/", host=f"localhost:{server.get_port()}")[0] == 200
     finally:
@@ -321,7 +322,7 @@ def test_localhost_is_the_loopback_address(channel):
 )
 def test_impossible_address_is_an_error_and_no_endless_wait(channel, host, port, message):
     with pytest.raises(ServerError, match=message):
-        open_server(host, port, {"rules": channel}, "test")
+        open_server(Access(host), port, {"rules": channel}, "test")
 
 
 def test_wrapped_call_is_restored(server):
@@ -331,7 +332,7 @@ def test_wrapped_call_is_restored(server):
 def test_viser_that_does_not_call_serve_is_told(channel, monkeypatch):
     monkeypatch.setattr(gate, "_wrapped_serve", lambda gate: contextlib.nullcontext())
     with pytest.raises(ServerError, match=r"viser .*serve was not called"):
-        open_server("127.0.0.1", 0, {"rules": channel}, "test")
+        open_server(Access("127.0.0.1"), 0, {"rules": channel}, "test")
 
 
 def test_viser_that_calls_serve_differently_is_told(channel, monkeypatch):
@@ -341,4 +342,4 @@ def test_viser_that_calls_serve_differently_is_told(channel, monkeypatch):
 
     monkeypatch.setattr(viser.infra, "WebsockServer", Different)
     with pytest.raises(ServerError, match=r"viser .* could not be checked: serve\("):
-        open_server("127.0.0.1", 0, {"rules": channel}, "test")
+        open_server(Access("127.0.0.1"), 0, {"rules": channel}, "test")

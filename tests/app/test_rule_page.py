@@ -5,6 +5,7 @@ import time
 import pytest
 
 from geswarm.app.panels.rule_page import RulePage
+from geswarm.app.server.channel import Client
 from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
 from geswarm.rules import format_text, load_preset, parse_yaml
@@ -15,6 +16,8 @@ EVO8 = load_preset("evo8")
 
 class Recorder:
     """Stands in for the channel: keeps what would be sent."""
+
+    clients = ()
 
     def __init__(self):
         self.messages = []
@@ -39,8 +42,14 @@ def page():
     page = RulePage(session)
     receive, greet = page.channel.on_message, page.channel.on_connect
     page.channel = Recorder()
-    page.say = lambda **message: (receive("client", message), session.frame(0.0, 1.0))
-    page.arrive = lambda: (greet("client"), session.frame(0.0, 1.0))
+    client = Client(1, None)
+
+    def say(**message):
+        receive(client, {"version": session.document.version, **message})
+        session.frame(0.0, 1.0)
+
+    page.say = say
+    page.arrive = lambda: (greet(client), session.frame(0.0, 1.0))
     yield page
     session.close()
 
@@ -54,9 +63,11 @@ def until(page, condition, seconds=60):
 
 
 def test_a_page_that_arrives_is_told_everything(page):
+    until(page, lambda: page.session.machine.drawn)
+    page.channel.messages.clear()
     page.arrive()
     kinds = [message["type"] for message in page.channel.messages]
-    assert kinds == ["vocabulary", "rules", "live", "verdict"]
+    assert kinds == ["vocabulary", "rules", "live", "verdict", "states", "unsaved"]
     rules = page.channel.of("rules")[0]
     assert rules["rule_set"]["name"] == "EVO 8"
     assert rules["english"][0].startswith("While going to the light")

@@ -70,7 +70,7 @@ def test_the_text_is_applied_and_comes_back_in_its_usual_form(page, server):
     text = 'name "Mine" rule while RANDOM_WALK do p=.5, PHOTOTAXIS'
     source.fill(text)
     source.press("Control+Enter")
-    tells(page, server, {"type": "set_text", "text": text})
+    tells(page, server, {"type": "set_text", "text": text, "version": 1})
     expect(source).to_have_value(format_text(server.document.rule_set))
     expect(page.get_by_test_id("apply-text")).to_be_disabled()
     expect(page.get_by_test_id("changed-meanwhile")).to_be_hidden()

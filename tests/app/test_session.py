@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 
+from geswarm.app.panels.evolution_panel import load_best
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.playback import Playback
 from geswarm.app.state.session import Session
@@ -181,7 +182,7 @@ def test_evolution_runs_pauses_goes_on_and_gives_its_best(session, tmp_path):
     assert len(evolution.history) == paused_at
     evolution.go_on()
     wait_for(lambda: len(evolution.history) > paused_at)
-    session.load_best()
+    load_best(session)
     assert session.world.rule_set.origin.run == str(tmp_path / "run")
     evolution.stop()
     assert evolution.phase is Phase.STOPPED

@@ -1,0 +1,297 @@
+"""What the evolution page is told, as JSON values (see static/evolution/protocol.js)."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, fields
+from typing import Any
+
+import numpy as np
+
+from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual
+from geswarm.population import Member
+from geswarm.rules import RuleSet, describe, load_preset
+from geswarm.rules.text import format_rule
+from geswarm.sim import Scenario
+
+from ..server.channel import Message
+from ..state.evolution import Phase
+from ..state.look import Chosen, Look, main_line
+from ..state.plan import Plan, idle_settings, preset_of
+from ..state.run_folder import RunSummary
+from ..state.runs import MOST_COMPARED, Runs
+
+MOST_POINTS = 600
+"""Of a curve; more cannot be told apart on a screen."""
+MOST_ROWS = 300
+"""Individuals listed."""
+_BINS = 24
+_KINDS = {bool: "switch", int: "whole", float: "number", str: "choice"}
+
+
+def form_message() -> Message:
+    """All parameters that a run has: name, kind, explanation, and the presets that fill them."""
+    explained = explanations(Settings)
+    return {
+        "type": "form",
+        "presets": list(PRESETS),
+        "most_compared": MOST_COMPARED,
+        "fields": [
+            {
+                "name": field.name,
+                "kind": _KINDS[type(field.default)],
+                "choices": list(CHOICES.get(field.name, ())),
+                "help": explained.get(field.name, ""),
+                "steerable": field.name in STEERABLE,
+            }
+            for field in fields(Settings)
+        ],
+    }
+
+
+def explanations(owner: type) -> dict[str, str]:
+    """What a class says of its attributes in its docstring, by name."""
+    _, _, text = (inspect.getdoc(owner) or "").partition("Attributes:\n")
+    entries = re.findall(r"^    (\w+): ((?:.+\n?)(?:^     +.+\n?)*)", text, re.MULTILINE)
+    return {name: " ".join(words.replace("`", "").split()) for name, words in entries}
+
+
+def plan_message(plan: Plan, scenario: Scenario, rule_set: RuleSet) -> Message:
+    """The next run as planned, with what is wrong with it."""
+    frozen = plan.frozen_rules(rule_set)
+    moved = frozen != rule_set.active_rules[: len(frozen)]
+    return {
+        "type": "plan",
+        "preset": plan.preset,
+        "values": dict(plan.values),
+        "changed": plan.changed,
+        "idle": idle_settings(plan.values),
+        "findings": plan.findings(rule_set),
+        "seed": plan.seed,
+        "from_table": plan.from_table,
+        "scenario": scenario.name,
+        "table": rule_set.name,
+        "rules": [
+            {"text": rule.comment or sentence, "frozen": rule in frozen, "enabled": rule.enabled}
+            for rule, sentence in zip(rule_set.rules, describe(rule_set), strict=True)
+        ],
+        "moved": moved,
+    }
+
+
+def status_message(runs: Runs) -> Message:
+    """What the evolution does now, and which run is looked at."""
+    evolution, look = runs.evolution, runs.look
+    shown, directory = runs.shown, evolution.directory
+    settings = evolution.settings if evolution.active else None
+    return {
+        "type": "status",
+        "phase": evolution.phase.name,
+        "active": evolution.active,
+        "error": evolution.error,
+        "run": directory.name if directory else None,
+        "resumable": evolution.phase in (Phase.STOPPED, Phase.FAILED),
+        "done": len(evolution.history),
+        "generations": evolution.generations,
+        "shown": shown.name if shown else None,
+        "problem": runs.problem,
+        "about": _about(look) if look and shown == look.directory else None,
+        "settings": {} if settings is None else settings.steerable,
+        "idle": [] if settings is None else idle_settings(asdict(settings)),
+    }
+
+
+def _about(look: Look) -> Message:
+    config, last = look.config, look.history[-1] if look.history else None
+    return {
+        "scenario": config.scenario.name,
+        "preset": _preset(look.config.settings),
+        "seed": config.seed,
+        "frozen": len(config.frozen),
+        "generations": config.settings.generations,
+        "done": len(look.history),
+        "finished": look.finished,
+        "best": last and last.best_so_far,
+        "mean": last and last.mean,
+    }
+
+
+def _preset(settings: Settings) -> Message:
+    name, changed = preset_of(settings)
+    return {"name": name, "changed": changed}
+
+
+def curves_message(runs: Runs) -> Message:
+    """The curves of the run looked at, the references, and what people did to it."""
+    look = runs.look
+    history = [] if look is None else [look.history[at] for at in thinned(len(look.history))]
+    titles = [(load_preset(name).name, mean) for name, mean in runs.references.items()]
+    return {
+        "type": "curves",
+        "run": look.directory.name if look else None,
+        "generation": [record.generation for record in history],
+        "best_so_far": [_short(record.best_so_far) for record in history],
+        "best": [_short(record.best) for record in history],
+        "mean": [_short(record.mean) for record in history],
+        "references": [{"name": name, "mean": _short(mean)} for name, mean in titles],
+        "marks": [asdict(mark) for mark in look.marks] if look else [],
+    }
+
+
+def compared_message(runs: Runs) -> Message:
+    """The best so far of the runs that are compared, in their order."""
+    known = {summary.name: summary for summary in runs.kept}
+    return {
+        "type": "compared",
+        "runs": [
+            {"name": name, **_best_so_far(known[name].best_so_far)}
+            for name in runs.compared
+            if name in known
+        ],
+    }
+
+
+def _best_so_far(values: Sequence[float]) -> Message:
+    at = thinned(len(values))
+    return {"generation": [i + 1 for i in at], "best_so_far": [_short(values[i]) for i in at]}
+
+
+def thinned(length: int) -> list[int]:
+    """Indices of at most `MOST_POINTS` of so many points, the first and the last among them."""
+    points = np.linspace(0, length - 1, min(length, MOST_POINTS))
+    return [int(at) for at in points.round()]
+
+
+def population_message(look: Look | None) -> Message:
+    """The individuals of the last generation, the best first, and how they differ."""
+    members = look.population.members if look else ()
+    common = Counter(one.behaviour for one in members if one.behaviour is not None)
+    fitness = [one.fitness for one in members]
+    return {
+        "type": "population",
+        "generation": len(look.history) if look else 0,
+        "size": len(members),
+        "invalid": sum(one.rule_set is None for one in members),
+        "behaviours": look.population.behaviours if look else 0,
+        "diversity": round(look.population.diversity, 2) if look else 0,
+        "common": [[number, count] for number, count in common.most_common(MOST_COMPARED)],
+        "fitness": histogram(fitness),
+        "codons": histogram([one.codons for one in members]),
+        "members": [_member(one) for one in members[:MOST_ROWS]],
+    }
+
+
+def _member(one: Member) -> list[Any]:
+    rules = len(one.rule_set.rules) if one.rule_set else None
+    return [
+        one.generation, one.key, _short(one.fitness), one.told, one.codons, rules, one.behaviour
+    ]  # fmt: skip
+
+
+def histogram(values: Sequence[float]) -> Message:
+    """How many values lie in each of equally wide bins, and the mean of all."""
+    if not values:
+        return {"low": 0, "high": 0, "mean": 0, "counts": []}
+    low, high = min(values), max(values)
+    counts, _ = np.histogram(values, _BINS, (low, high) if high > low else (low - 0.5, low + 0.5))
+    return {
+        "low": _short(low),
+        "high": _short(high),
+        "mean": _short(sum(values) / len(values)),
+        "counts": counts.tolist(),
+    }
+
+
+def ancestors_message(look: Look | None) -> Message:
+    """Whom the best descends from: all of them, and the line of first parents, newest first."""
+    ancestors = look.ancestors[-MOST_ROWS:] if look else ()
+    line = main_line(look.ancestors)[:MOST_ROWS] if look else []
+    phenotypes = (
+        {(one.generation, one.key): one.phenotype for one in look.ancestors} if look else {}
+    )
+    return {
+        "type": "ancestors",
+        "all": [[*_place(one), one.parents] for one in ancestors],
+        "line": [[*_place(one), how_bred(one, phenotypes), one.codons] for one in line],
+    }
+
+
+def _place(one: StoredIndividual) -> list[float]:
+    return [one.generation, one.key, _short(one.fitness)]
+
+
+def how_bred(one: StoredIndividual, phenotypes: dict[tuple[int, int], str | None]) -> str:
+    """By what an individual came about."""
+    if not one.parents:
+        return "initial" if one.generation == 1 else "injected"
+    if one.phenotype == phenotypes.get(one.parents[0]):
+        return "unchanged"
+    return "crossover" if len(one.parents) > 1 else "mutation"
+
+
+def runs_message(runs: Runs) -> Message:
+    """All runs that are kept."""
+    return {
+        "type": "runs",
+        "compared": list(runs.compared),
+        "runs": [_run(summary, runs) for summary in runs.kept],
+    }
+
+
+def _run(summary: RunSummary, runs: Runs) -> Message:
+    """A run; of the one under way what its thread knows, which is newer than its directory."""
+    active = runs.is_active(summary.name)
+    config, evolution = summary.config, runs.evolution
+    values = summary.best_so_far
+    if active:
+        values = tuple(record.best_so_far for record in evolution.history)
+    return {
+        "name": summary.name,
+        "problem": summary.problem,
+        "scenario": config.scenario.name if config else "",
+        "preset": _preset(config.settings) if config else None,
+        "seed": config.seed if config else None,
+        "done": len(values),
+        "generations": config.settings.generations if config else None,
+        "best": _short(values[-1]) if values else None,
+        "phase": evolution.phase.name if active else _phase(summary).name,
+        "written": summary.written,
+    }
+
+
+def _phase(summary: RunSummary) -> Phase:
+    if summary.problem:
+        return Phase.FAILED
+    return Phase.FINISHED if summary.finished else Phase.STOPPED
+
+
+def chosen_message(chosen: Chosen | None) -> Message:
+    """The individual looked at and its rules, in the rule language and as sentences."""
+    rule_set = chosen.rule_set if chosen else RuleSet()
+    return {
+        "type": "chosen",
+        "individual": chosen
+        and {
+            "run": chosen.run,
+            "generation": chosen.generation,
+            "key": chosen.key,
+            "fitness": chosen.fitness,
+        },
+        "rules": [
+            {"text": format_rule(rule), "english": sentence}
+            for rule, sentence in zip(rule_set.rules, describe(rule_set), strict=True)
+        ],
+    }
+
+
+def notice_message(text: str, level: str = "error") -> Message:
+    """Something that could not be done, or that was."""
+    return {"type": "notice", "level": level, "text": text}
+
+
+def _short(value: float) -> float:
+    """Four decimals: a mean of a few runs has no more to say."""
+    return round(float(value), 4)

@@ -1,0 +1,109 @@
+/** The population of the last generation: how good, how big, how different, and everybody in it. */
+
+import { COLOURS } from "../common/chart.js";
+import { h, identify, svg } from "../common/dom.js";
+import { decimal } from "../common/figures.js";
+import { Rows } from "./rows.js";
+
+const HEIGHT = 34; // px of a histogram
+
+export class Population {
+  /** @type {?import("./protocol.js").PopulationMessage} */
+  #waiting = null;
+  #chosen = null;
+
+  /**
+   * @param {HTMLElement} root
+   * @param {(message: object) => boolean} send
+   */
+  constructor(root, send) {
+    this.tiles = h("div", { class: "tiles" });
+    this.shares = h("div", { class: "shares" });
+    identify(this.shares, "behaviours");
+    const columns = ["#", "Fitness", "Eval.", "Codons", "Rules", "Behav.", "Bred"];
+    this.rows = new Rows("individual", columns, ([generation, key]) => send({ type: "choose", generation, key }));
+    this.note = h("p", { class: "note" });
+    this.filled = h("div", { hidden: true }, this.tiles, this.shares, this.rows.node, this.note);
+    this.empty = h("p", { class: "note" }, "There is no population yet: start an evolution, or open one of the runs.");
+    root.append(this.empty, this.filled);
+    // What the pointer is aimed at must not move away from under it.
+    this.rows.node.addEventListener("pointerleave", () => this.#waiting && this.update(this.#waiting));
+  }
+
+  /** @param {import("./protocol.js").PopulationMessage} message */
+  update(message) {
+    const held = this.rows.node.matches(":hover") && this.rows.length > 0;
+    this.#waiting = held ? message : null;
+    this.filled.hidden = message.size === 0;
+    this.empty.hidden = message.size > 0;
+    if (message.size === 0) return;
+    this.#summarise(message);
+    if (held) return;
+    const colours = colourOf(message);
+    this.rows.show(message.members, (member, i) => cells(member, i, colours));
+    this.rows.mark(this.#chosen);
+    const more = message.size - message.members.length;
+    this.note.textContent = more > 0 ? `and ${more} more` : "";
+  }
+
+  /** @param {?{generation: number, key: number}} individual */
+  choose(individual) {
+    this.#chosen = individual;
+    this.rows.mark(individual);
+  }
+
+  #summarise({ generation, size, invalid, behaviours, diversity, common, fitness, codons }) {
+    const valid = invalid ? `${invalid} invalid` : "all valid";
+    this.tiles.replaceChildren(
+      tile("size", String(size), `individuals of generation ${generation}, ${valid}`),
+      tile("behaviours", String(behaviours), "distinct behaviours", BEHAVIOURS),
+      tile("diversity", decimal(diversity), "effective number of them", DIVERSITY),
+      plot("fitness", "fitness", fitness),
+      plot("codons", "size in codons", codons, 0),
+    );
+    const rest = size - invalid - common.reduce((sum, [, count]) => sum + count, 0);
+    const parts = common.map(([number, count], i) => share(count, COLOURS[i], `behaviour ${number + 1}: ${count}`));
+    if (rest > 0) parts.push(share(rest, "", `other behaviours: ${rest}`));
+    this.shares.replaceChildren(...parts);
+  }
+}
+
+const BEHAVIOURS = "Individuals whose robots decide the same in every situation have one behaviour";
+const DIVERSITY = "As many equally frequent behaviours would be as diverse (exp of Shannon's entropy)";
+
+/** The common behaviours have colours, the others are grey. */
+function colourOf({ common }) {
+  const colours = new Map(common.map(([number], i) => [number, COLOURS[i]]));
+  return (behaviour) => colours.get(behaviour) ?? "";
+}
+
+function cells([generation, , fitness, told, codons, rules, behaviour], i, colourOf) {
+  const lamp = h("span", { class: "patch", "aria-hidden": "true" });
+  if (colourOf(behaviour)) lamp.style.setProperty("--patch", colourOf(behaviour));
+  const number = behaviour === null ? ["invalid"] : [lamp, String(behaviour + 1)];
+  return [String(i + 1), decimal(fitness), `${told}×`, String(codons), rules === null ? "–" : String(rules), number, String(generation)];
+}
+
+function tile(id, value, words, title = null) {
+  return h("div", { class: "tile", title, "data-testid": `tile-${id}` }, h("b", {}, value), h("span", {}, words));
+}
+
+/** A histogram with its ends and its mean. */
+function plot(id, words, { low, high, mean, counts }, decimals = 1) {
+  const most = Math.max(1, ...counts);
+  const bars = counts.map((count, i) => {
+    const height = count ? Math.max(1.5, ((HEIGHT - 1) * count) / most) : 0;
+    return svg("rect", { x: i + 0.08, width: 0.84, y: HEIGHT - height, height });
+  });
+  const attributes = { viewBox: `0 0 ${counts.length} ${HEIGHT}`, preserveAspectRatio: "none", height: HEIGHT, "aria-hidden": "true" };
+  const ends = h("div", { class: "ends" }, h("span", {}, decimal(low, decimals)), h("span", {}, decimal(high, decimals)));
+  const title = h("span", {}, `${words}, mean ${decimal(mean)}`);
+  return h("div", { class: "tile plot", "data-testid": `plot-${id}` }, svg("svg", attributes, ...bars), ends, title);
+}
+
+function share(count, colour, title) {
+  const node = h("span", { class: "share", title });
+  node.style.setProperty("flex-grow", count);
+  if (colour) node.style.setProperty("--patch", colour);
+  return node;
+}

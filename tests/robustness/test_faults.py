@@ -1,0 +1,101 @@
+"""Headless evolution while the machine fails it: see also `tests/app/test_headless.py`."""
+
+import os
+import signal
+import subprocess
+import time
+from contextlib import contextmanager
+
+import pytest
+
+from geswarm.app.main import main
+from tests.app.test_headless import SMALL, command, outcome
+
+PATIENCE = 120
+
+
+@pytest.fixture
+def common(tmp_path):
+    scenario = tmp_path / "quick.yaml"
+    scenario.write_text("extends: paper\nduration: 20\n")
+    return [*SMALL, "--scenario", str(scenario), "--generations"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_stopped_while_it_compiles_it_goes_on_later(tmp_path, common, number, monkeypatch):
+    whole, part = tmp_path / "whole", tmp_path / "part"
+    assert main([*common, "3", "--out", str(whole)]) == 0
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "nothing compiled yet"))
+    process = command(*common, "3", "--out", str(part))
+    said = process.stderr.readline()
+    assert said.startswith("Compiling")
+    process.send_signal(number)
+    _, err = process.communicate(timeout=PATIENCE)
+    assert "Traceback" not in err
+    if number == signal.SIGKILL:
+        assert process.returncode == -signal.SIGKILL
+    else:
+        assert process.returncode == 130
+        assert f"Stopped. Resume with: geswarm-ui --no-ui --resume {part}" in err
+    monkeypatch.undo()
+    assert main(["--no-ui", "--resume", str(part)]) == 0
+    assert outcome(part) == outcome(whole)
+
+
+@pytest.mark.long
+def test_a_second_ctrl_c_ends_it_at_once(tmp_path, common, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "nothing compiled yet"))
+    process = command(*common, "3", "--out", str(tmp_path / "run"))
+    assert process.stderr.readline().startswith("Compiling")
+    for _ in range(2):
+        process.send_signal(signal.SIGINT)
+        time.sleep(1.0)
+    err = process.communicate(timeout=PATIENCE)[1]
+    assert process.returncode == 130
+    assert "Traceback" not in err
+
+
+@contextmanager
+def small_disk(place):
+    """A file system of eight megabytes, where one may be mounted."""
+    place.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", str(place)]
+    if os.geteuid() != 0 or subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("no file system may be mounted here: needs root in its own right")
+    try:
+        yield place
+    finally:
+        subprocess.run(["umount", str(place)], check=True)
+
+
+def test_a_disk_that_is_full_is_said_and_costs_nothing(tmp_path, common, capsys):
+    assert main([*common, "40", "--out", str(tmp_path / "whole")]) == 0
+    with small_disk(tmp_path / "disk") as disk:
+        room = disk / "room"
+        room.write_bytes(b"x" * 7_600_000)
+        part = disk / "run"
+        assert main([*common, "40", "--out", str(part)]) == 1
+        err = capsys.readouterr().err
+        assert "cannot write" in err
+        assert f"--resume {part}" in err
+        assert main(["--no-ui", "--resume", str(part)]) in (1, 2)  # it is still full
+        assert "Traceback" not in capsys.readouterr().err
+        room.unlink()
+        assert main(["--no-ui", "--resume", str(part)]) == 0
+        assert outcome(part) == outcome(tmp_path / "whole")
+
+
+def test_a_disk_without_any_room_is_said(tmp_path, common, capsys):
+    with small_disk(tmp_path / "disk") as disk:
+        with (disk / "room").open("wb", buffering=0) as file:
+            try:
+                while True:
+                    file.write(b"x" * 4096)
+            except OSError:
+                pass
+        assert main([*common, "3", "--out", str(disk / "run")]) == 2
+        err = capsys.readouterr().err
+        assert str(disk / "run") in err
+        assert "Traceback" not in err
+        assert not (disk / "run" / "run.db").exists()
