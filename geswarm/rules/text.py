@@ -257,7 +257,7 @@ def _out_of_order(before: str, keyword: str) -> str | None:
 def _string(text: str) -> str:
     try:
         value = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         value = None
     if not isinstance(value, str):
         given = shown(text) if text else "nothing"

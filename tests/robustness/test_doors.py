@@ -69,12 +69,15 @@ def fuzz(door, inputs):
 
 @pytest.fixture(params=DOORS)
 def door(request, tmp_path, monkeypatch):
-    """A door, with the working directory where it may write; beside it nothing may change."""
+    """A door, with the working directory where it may write; beside it nothing may change.
+
+    The directory above it may be chosen too: `--out ..`.
+    """
     inside, outside = tmp_path / "inside", tmp_path / "outside"
-    inside.mkdir()
+    (inside / "here").mkdir(parents=True)
     outside.mkdir()
     (outside / "kept").write_text("kept")
-    monkeypatch.chdir(inside)
+    monkeypatch.chdir(inside / "here")
     yield DOORS[request.param]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["inside", "outside"]
     assert [path.read_text() for path in outside.iterdir()] == ["kept"]
