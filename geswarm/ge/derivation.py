@@ -8,8 +8,7 @@ such stretches therefore keeps every child a sentence of the grammar.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -25,8 +24,7 @@ GROWTH_CODONS = 150
 """Codons, read and still to come, after which it does so too: some grammars branch often."""
 
 
-@dataclass(frozen=True)
-class Node:
+class Node(NamedTuple):
     """A non-terminal of a derivation tree.
 
     Attributes:
@@ -71,29 +69,33 @@ class DerivationTrees:
 
     def nodes(self, genome: Genome) -> list[Node]:
         """The derivation tree in preorder."""
-        nodes: list[Node] = []
+        opened: list[tuple[str, int, int, int, bool]] = []
+        ends: list[int] = []
         at = 0
         # To do, last first: (name, parent) to open a node, or its index to close it.
         stack: list[tuple[str, int] | int] = [(self.grammar.start, -1)]
         while stack:
             top = stack.pop()
             if isinstance(top, int):
-                node = nodes[top]
-                nodes[top] = Node(
-                    node.name, node.begin, at, node.alternative, node.parent, node.forced
-                )
+                ends[top] = at
                 continue
             name, parent = top
             alternatives = self._below[name]
-            forced, index, chosen = len(alternatives) == 1, len(nodes), 0
+            forced, index, chosen = len(alternatives) == 1, len(opened), 0
             if not forced:
                 chosen = genome[at] % len(alternatives)
-            nodes.append(Node(name, at, at, chosen, parent, forced))
+            opened.append((name, at, chosen, parent, forced))
             at += not forced
-            stack.append(index)
-            below = parent if forced else index
-            stack += [(child, below) for child in reversed(alternatives[chosen])]
-        return nodes
+            ends.append(at)
+            children = alternatives[chosen]
+            if children:
+                stack.append(index)
+                below = parent if forced else index
+                stack += [(child, below) for child in reversed(children)]
+        return [
+            Node(name, begin, end, chosen, parent, forced)
+            for (name, begin, chosen, parent, forced), end in zip(opened, ends, strict=True)
+        ]
 
     def swap(
         self, first: Genome, second: Genome, max_codons: int, rng: np.random.Generator

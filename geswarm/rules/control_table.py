@@ -8,14 +8,14 @@ whatever the number of rules.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
 from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -133,27 +133,36 @@ def apply_rule(distribution: FloatArray, rule: Rule, vocabulary: Vocabulary) -> 
 
 def apply_action(distribution: FloatArray, action: Action, vocabulary: Vocabulary) -> FloatArray:
     """Mix in the outcomes of the action with its probability; shape (..., outcomes)."""
-    done = distribution @ _action_matrix(replace(action, p=1.0), vocabulary)
+    done = distribution @ _action_matrix(action, vocabulary)
     return (1.0 - action.p) * distribution + action.p * done
 
 
 def active_part(rule: Rule, vocabulary: Vocabulary) -> FloatArray:
-    """1 where the rule is active, else 0; shape (percepts, 1, outcomes)."""
+    """1 where the rule is active, else 0; shape (percepts, 1, outcomes), read-only."""
+    return _active_part(rule.preconditions, rule.behaviours, vocabulary)
+
+
+@lru_cache(maxsize=4096)
+def _active_part(
+    preconditions: tuple[Precondition, ...], behaviours: tuple[str, ...], vocabulary: Vocabulary
+) -> FloatArray:
     indexing = Indexing.of(vocabulary)
     percepts = np.ones(indexing.percepts)
-    for precondition in rule.preconditions:
+    for precondition in preconditions:
         bit = vocabulary.precondition_index[precondition.name]
         sensed = (np.arange(indexing.percepts) >> bit) & 1
         percepts *= sensed == precondition.holds
-    behaviours = np.zeros(indexing.behaviours)
-    behaviours[[vocabulary.behaviour_index[name] for name in rule.behaviours] or slice(None)] = 1.0
-    outcomes = np.repeat(behaviours, indexing.states * 2)
-    return percepts[:, None, None] * outcomes[None, None, :]
+    current = np.zeros(indexing.behaviours)
+    current[[vocabulary.behaviour_index[name] for name in behaviours] or slice(None)] = 1.0
+    outcomes = np.repeat(current, indexing.states * 2)
+    part = percepts[:, None, None] * outcomes[None, None, :]
+    part.setflags(write=False)
+    return part
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=1024)
 def _action_matrix(action: Action, vocabulary: Vocabulary) -> FloatArray:
-    """What the action does, as a 0/1 matrix from outcome to outcome, (outcomes, outcomes)."""
+    """What the action does if it is drawn, as a 0/1 matrix, shape (outcomes, outcomes)."""
     indexing = Indexing.of(vocabulary)
     matrix = np.zeros((indexing.outcomes, indexing.outcomes))
     for before in range(indexing.outcomes):

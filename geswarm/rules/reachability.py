@@ -45,7 +45,7 @@ def reachable_situations(table: FloatArray, vocabulary: Vocabulary = FORAGING) -
     indexing = Indexing.of(vocabulary)
     possible = table > 0
     reachable = np.zeros(table.shape[:2], dtype=bool)
-    percepts = {holding: _percepts(holding, vocabulary) for holding in (False, True)}
+    percepts = _percepts(False, vocabulary), _percepts(True, vocabulary)
     start = vocabulary.behaviour_index[vocabulary.initial_behaviour]
     found: set[_Body] = {(False, start, vocabulary.initial_states)}
     waiting = list(found)
@@ -62,6 +62,7 @@ def reachable_situations(table: FloatArray, vocabulary: Vocabulary = FORAGING) -
     return reachable
 
 
+@lru_cache(maxsize=8)
 def _percepts(holding: bool, vocabulary: Vocabulary) -> list[int]:
     """Everything that a robot can perceive while it holds an object, or while it does not."""
     bits = vocabulary.precondition_index
