@@ -11,6 +11,7 @@ import viser
 from geswarm.sim import load_scenario, scenario_names
 
 from ..state.keys import KEYS, Key
+from ..state.plan import LARGEST_SEED
 from ..state.playback import SPEEDS
 from ..state.session import Command, Session
 from .widgets import Mirror
@@ -78,7 +79,7 @@ class SwarmPanel:
             chosen = given if name == given.name else load_scenario(name)
             post(lambda s: s.set_scenario(chosen) if s.scenario != chosen else None)
 
-        seed = gui.add_number("Seed", session.world.seed, min=0, step=1)
+        seed = gui.add_number("Seed", session.world.seed, min=0, max=LARGEST_SEED, step=1)
 
         @seed.on_update
         def _(event: viser.GuiEvent[viser.GuiNumberHandle[int]]) -> None:

@@ -80,7 +80,7 @@ class Pointer:
 
     def _drag(self, kind: Kind, event: DragEvent) -> None:
         index = event.instance_index
-        if index is None:
+        if index is None or index >= len(event.target.batched_positions):
             return
         if event.phase == "end":
             self._grips.pop(event.client_id, None)

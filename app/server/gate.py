@@ -11,6 +11,7 @@ import asyncio
 import contextlib
 import inspect
 import io
+import logging
 import socket
 import threading
 from collections.abc import Callable, Iterator, Mapping
@@ -27,7 +28,8 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from .access import Access
-from .channel import Channel
+from .channel import MAX_MESSAGE_BYTES, Channel
+from .viser_messages import is_expected
 
 COMMON = "common"
 """The folder of static/ that all pages share."""
@@ -51,6 +53,10 @@ PROTECTION = {
 }
 """Headers of every answer, unless it has stricter ones."""
 
+MAX_FRAME_BYTES = 4 * MAX_MESSAGE_BYTES
+"""Of a websocket message: one that is longer is not read, and ends the connection. What is a little
+too long for a page is read and answered."""
+
 _ALONE = (
     "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
     "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
@@ -59,6 +65,7 @@ _ALONE = (
 """Policy of made files: no access to anything, the dashboard that serves them included."""
 
 _construction = threading.Lock()
+_logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -93,6 +100,20 @@ class _Server(viser.ViserServer):
             super().stop()
 
 
+class _NoTracebacks(logging.Filter):
+    """What strangers send is no fault of ours: of what fails then, one line is enough."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        # viser keeps the former quiet if it reads just so: any scan of ports would be told.
+        if record.getMessage() != "opening handshake failed" and record.exc_info:
+            record.msg, record.args = f"{record.getMessage()}: {record.exc_info[1]!r}", ()
+            record.exc_info = None
+        return True
+
+
+_logger.addFilter(_NoTracebacks())
+
+
 class Gate:
     """What stands between the port and viser."""
 
@@ -107,6 +128,7 @@ class Gate:
         self.made = {f"/{page}/files/": files for page, files in made.items()}
         self.sockets = {f"/{page}/socket": channel for page, channel in pages.items()}
         self.folders = [static / name for name in (COMMON, *pages)]
+        self.widgets: Mapping[str, Any] = {}
         self.open = False
         self.used = False
         self.mismatch: str | None = None
@@ -121,6 +143,7 @@ class Gate:
                 # Raising here would leave viser's constructor waiting; the gate stays shut.
                 self.mismatch = f"serve({handler!r}, *{args}, {', '.join(sorted(kwargs))})"
             kwargs["process_request"] = self._process(viser_process)
+            kwargs |= {"max_size": MAX_FRAME_BYTES, "logger": _logger}
             return serve(self._route(handler), *args, **kwargs)
 
         return guarded
@@ -131,9 +154,21 @@ class Gate:
             if channel is not None:
                 await channel.serve(connection)
             else:
+                self._screen(connection)
                 await viser_handler(connection)
 
         return handler
+
+    def _screen(self, connection: ServerConnection) -> None:
+        """Have viser receive only what it may be told."""
+        receive = connection.recv
+
+        async def recv() -> str | bytes:
+            while not is_expected(raw := await receive(), self.widgets):
+                pass
+            return raw
+
+        connection.recv = recv  # type: ignore[method-assign,assignment]
 
     def _process(self, viser_process: Any) -> Callable[[ServerConnection, Request], Any]:
         async def process(connection: ServerConnection, request: Request) -> Response | None:
@@ -214,6 +249,7 @@ def open_server(
             f"{gate.mismatch or 'websockets.asyncio.server.serve was not called'}; "
             "install a version of viser that geswarm allows"
         )
+    gate.widgets = server.gui._gui_input_handle_from_uuid
     gate.open = True
     return server
 
