@@ -48,9 +48,14 @@ def _parser() -> argparse.ArgumentParser:
     headless.add_argument("--no-ui", action="store_true", help="evolve without the dashboard")
     headless.add_argument("--preset", metavar="P", help="paper (default) or modern")
     headless.add_argument("--generations", type=positive_int, metavar="N", help="default: 1000")
-    headless.add_argument("--population", type=positive_int, metavar="N", help="default: 100")
     headless.add_argument(
-        "--evaluations", type=positive_int, metavar="N", help="runs per individual; default: 3"
+        "--population", type=positive_int, metavar="N", help="default: 100, in modern 200"
+    )
+    headless.add_argument(
+        "--evaluations",
+        type=positive_int,
+        metavar="N",
+        help="runs per individual; default: 3, in modern 1",
     )
     headless.add_argument("--seed", type=non_negative_int, metavar="N", help="default: 0")
     headless.add_argument("--out", metavar="DIR", help="run directory; default: a new one in runs/")

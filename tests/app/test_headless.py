@@ -14,6 +14,7 @@ from contextlib import closing
 import pytest
 
 from geswarm.app.main import main
+from geswarm.ge import Settings
 from geswarm.rules import load_rule_set
 
 SMALL = ["--no-ui", "--population", "8", "--evaluations", "1"]
@@ -220,6 +221,15 @@ def test_usage_errors_exit_2_with_one_clear_message(arguments, message, capsys):
     assert status == 2
     assert message in captured.err
     assert "Traceback" not in captured.err
+
+
+def test_the_help_tells_the_defaults_of_the_presets(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    told = " ".join(capsys.readouterr().out.split())
+    paper, modern = Settings.preset("paper"), Settings.preset("modern")
+    assert f"default: {paper.population}, in modern {modern.population}" in told
+    assert f"default: {paper.evaluations}, in modern {modern.evaluations}" in told
 
 
 def test_a_directory_with_a_run_is_not_overwritten(tmp_path, quick, capsys):
