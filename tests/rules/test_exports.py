@@ -1,8 +1,6 @@
 import json
 import random
 import re
-import shutil
-import subprocess
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -10,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.app import palette
 from geswarm.rules import (
     BehaviourChange,
     Rule,
@@ -26,16 +23,12 @@ from geswarm.rules import (
 from geswarm.rules.as_json import format_json, rule_from_json
 from geswarm.rules.exports import (
     EXPORTS,
-    brief_svg,
     format_argos_experiment,
     format_floor,
     format_markdown,
-    machine_svg,
     to_automode,
 )
 from geswarm.rules.exports.automode import _drawn_in_random_order
-from geswarm.rules.exports.layout import BRIEF, FULL, lay_out
-from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.sim import load_scenario
 from tests import strategies
 
@@ -46,7 +39,6 @@ CROWDED = parse_text(
     "rule if HAS_OBJECT == true do p = 0.5, RANDOM_WALK do p = 0.05, DROP_OBJECT = true"
 )
 """Six states and far more transitions than there is room for text."""
-SVG = "{http://www.w3.org/2000/svg}"
 NASTY = RuleSet(
     (Rule(actions=(BehaviourChange(0.5, "PHOTOTAXIS"),), comment="5 % $x_1$ & <b>| {\\end} `q`"),),
     name='</svg>"--]] # ;:',
@@ -131,102 +123,6 @@ def test_json_holds_the_state_machine():
         "restarts": False,
         "rules": [3, 4],
     }
-
-
-def test_mermaid():
-    lines = EXPORTS["mermaid"](HAND_CODED).splitlines()
-    assert lines[:9] == [
-        "---",
-        'title: "Hand-coded"',
-        "---",
-        "stateDiagram-v2",
-        '    state "PHOTOTAXIS" as s0',
-        '    state "ANTI-PHOTOTAXIS" as s1',
-        '    state "RANDOM_WALK" as s2',
-        "    [*] --> s2",
-        "    s0 --> s1 : HAS_OBJECT and not ON_NEST<br/>p = 1, at once",
-    ]
-    transitions = StateMachine.of(HAND_CODED).transitions
-    arrows = [line.split()[:3] for line in lines[9:] if "-->" in line]
-    assert arrows == [[f"s{each.source}", "-->", f"s{each.target}"] for each in transitions[1:]]
-
-
-def test_dot():
-    lines = EXPORTS["dot"](HAND_CODED).splitlines()
-    assert lines[0] == "digraph rule_set {"
-    assert '  s2 [label="RANDOM_WALK", color="#22b278", peripheries=2];' in lines
-    edge = r'  s1 -> s2 [label="ON_NEST\np = 1, at once\ndrop the object", color="#1f63de"];'
-    assert edge in lines
-    assert r'label="a\\\"b"' in EXPORTS["dot"](RuleSet(name='a\\"b'))
-
-
-@pytest.mark.skipif(not shutil.which("dot"), reason="Graphviz is not installed")
-def test_graphviz_draws_it():
-    subprocess.run(["dot", "-Tsvg"], input=EXPORTS["dot"](NASTY), text=True, check=True)
-
-
-@pytest.mark.parametrize("form", [FULL, BRIEF])
-@given(rule_set=strategies.plain_rule_sets())
-def test_no_label_covers_a_state_or_another_label(form, rule_set):
-    machine = StateMachine.of(rule_set)
-    layout = lay_out(machine, form)
-    labels = [arrow.label for arrow in layout.arrows if arrow.lines]
-    boxes = labels + list(layout.states)
-    if len(machine.states) <= 3:
-        for at, one in enumerate(boxes):
-            for other in boxes[:at]:
-                assert min(one.overlap(other)) <= 0
-    for box in boxes:
-        assert 0 <= box.x - box.width / 2 <= box.x + box.width / 2 <= layout.width
-        assert 0 <= box.y - box.height / 2 <= box.y + box.height / 2 <= layout.height
-    drawn = [at for arrow in layout.arrows for at in arrow.transitions]
-    assert sorted(drawn) == list(range(len(machine.transitions)))
-
-
-def test_the_picture_says_what_the_machine_says():
-    machine = StateMachine.of(EVO8)
-    root = ElementTree.fromstring(machine_svg(machine))
-    space = {"s": "http://www.w3.org/2000/svg"}
-    states = root.findall(".//s:g[@class='state']/s:text", space)
-    assert [state.text for state in states] == [state.label for state in machine.states]
-    groups = root.findall(".//s:g[@class='transition']", space)
-    shown = {int(group.get("data-transition")): group for group in groups}
-    assert sorted(shown) == list(range(len(machine.transitions)))
-    for at, transition in enumerate(machine.transitions):
-        rows = [row.text for row in shown[at].findall("s:text", space)]
-        rules = " ".join(f"R{number}" for number in transition.rules)
-        assert rows[:2] == [str(transition.condition), f"{transition.rate} · {rules}"]
-        assert rows[2:] == list(machine.effects(transition))
-    assert machine._repr_svg_() == EXPORTS["svg"](EVO8)
-
-
-def test_the_brief_picture_leaves_text_out_where_there_is_too_much():
-    for rule_set in (EVO8, HAND_CODED, CROWDED, RuleSet()):
-        machine = StateMachine.of(rule_set)
-        groups = list(ElementTree.fromstring(brief_svg(machine)).iter(f"{SVG}g"))
-        of_kind = {
-            kind: [group for group in groups if group.get("class") == kind]
-            for kind in ("state", "arrow", "transition")
-        }
-        assert len(of_kind["state"]) == len(machine.states)
-        drawn = " ".join(arrow.get("data-transitions") for arrow in of_kind["arrow"]).split()
-        assert sorted(map(int, drawn)) == list(range(len(machine.transitions)))
-        assert len(of_kind["transition"]) == (0 if rule_set is CROWDED else len(drawn))
-    (text,) = of_kind["state"][0].iter(f"{SVG}text")
-    assert text.text == "RANDOM_WALK"
-    brief = brief_svg(StateMachine.of(EVO8))
-    assert ">p = 0.0959 · R3 R4<" in brief
-    assert ">not WANT_OBJECT<" in brief_svg(StateMachine.of(CROWDED))
-
-
-def test_text_in_the_picture_is_escaped():
-    root = ElementTree.fromstring(EXPORTS["svg"](NASTY))
-    titles = [entry.text for entry in root.iter(f"{SVG}text")]
-    assert NASTY.name in titles
-
-
-def test_behaviours_have_the_colours_of_the_arena():
-    assert tuple(map(palette.css, palette.BEHAVIOURS)) == BEHAVIOUR_COLOURS
 
 
 def test_markdown():

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from geswarm.rules.exports.layout import Lines, label_lines
 from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
@@ -20,7 +21,8 @@ def format_dot(rule_set: RuleSet) -> str:
 
 def _lines(machine: StateMachine) -> Iterator[str]:
     yield "digraph rule_set {"
-    yield f"  label={_quoted(machine.name)}; labelloc=t; rankdir=LR; nodesep=0.8; ranksep=1.6;"
+    yield f'  label={_quoted(machine.name)}; labelloc=t; fontname="Helvetica";'
+    yield "  nodesep=0.6; ranksep=0.8;"
     yield '  node [shape=box, style="rounded,bold", fontname="Helvetica", margin="0.25,0.12"];'
     yield '  edge [fontname="Helvetica", fontsize=10];'
     for at, state in enumerate(machine.states):
@@ -28,18 +30,24 @@ def _lines(machine: StateMachine) -> Iterator[str]:
         colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
         border = ", peripheries=2" if state.initial else ""
         yield f"  s{at} [label={_quoted(state.label)}, color={_quoted(colour)}{border}];"
-    for transition in machine.transitions:
-        parts = [str(transition.condition), transition.rate, *machine.effects(transition)]
-        code = machine.vocabulary.behaviour_index[machine.states[transition.source].behaviour]
+    for (source, target), transitions in machine.between.items():
+        code = machine.vocabulary.behaviour_index[machine.states[source].behaviour]
         colour = _quoted(BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)])
-        yield (
-            f"  s{transition.source} -> s{transition.target} "
-            f"[label={_quoted(*parts)}, color={colour}];"
-        )
+        label = _left(label_lines(machine, entry) for entry in transitions)
+        yield f"  s{source} -> s{target} [label={label}, color={colour}];"
     yield "}"
 
 
-def _quoted(*lines: str) -> str:
-    """A DOT string of one or more centred lines."""
-    escaped = (line.replace("\\", "\\\\").replace('"', '\\"') for line in lines)
-    return '"' + "\\n".join(escaped) + '"'
+def _escaped(line: str) -> str:
+    return line.replace("\\", "\\\\").replace('"', '\\"')
+
+
+def _quoted(line: str) -> str:
+    """A DOT string."""
+    return f'"{_escaped(line)}"'
+
+
+def _left(blocks: Iterable[Lines]) -> str:
+    """A DOT string of left-aligned lines, off the edge, with an empty one between two blocks."""
+    texts = ("".join(f"  {_escaped(line)}\\l" for line in block) for block in blocks)
+    return '"' + " \\l".join(texts) + '"'

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 
+from geswarm.rules.exports.layout import label_lines
 from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 
-_MEANING = {character: f"#{ord(character)};" for character in '#;:<>&"'}
+_MEANING = {character: f"#{ord(character)};" for character in '#;:<>&"'} | {" ": "\u00a0"}
+
+_IN_TITLES = str.maketrans("<>&", "‹›＆")  # Mermaid takes markup out of titles, with no escape
 
 
 def format_mermaid(rule_set: RuleSet) -> str:
@@ -23,15 +26,16 @@ def format_mermaid(rule_set: RuleSet) -> str:
 
 def _lines(machine: StateMachine) -> Iterator[str]:
     if machine.name:
-        yield from ("---", f"title: {json.dumps(machine.name, ensure_ascii=False)}", "---")
+        title = json.dumps(machine.name.translate(_IN_TITLES), ensure_ascii=False)
+        yield from ("---", f"title: {title}", "---")
     yield "stateDiagram-v2"
     for at, state in enumerate(machine.states):
         yield f'    state "{_text(state.label)}" as s{at}'
     yield from (f"    [*] --> s{at}" for at, state in enumerate(machine.states) if state.initial)
-    for transition in machine.transitions:
-        parts = [str(transition.condition), transition.rate, *machine.effects(transition)]
-        label = "<br/>".join(map(_text, parts))
-        yield f"    s{transition.source} --> s{transition.target} : {label}"
+    for (source, target), transitions in machine.between.items():
+        blocks = (map(_text, label_lines(machine, entry)) for entry in transitions)
+        label = "<br/><br/>".join(map("<br/>".join, blocks))
+        yield f"    s{source} --> s{target} : {label}"
     for at, state in enumerate(machine.states):
         code = machine.vocabulary.behaviour_index[state.behaviour]
         colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
@@ -40,5 +44,5 @@ def _lines(machine: StateMachine) -> Iterator[str]:
 
 
 def _text(text: str) -> str:
-    """Text without the characters that mean something to Mermaid."""
+    """Text without the characters that mean something to Mermaid; it is not to be wrapped."""
     return "".join(_MEANING.get(character, character) for character in text)

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
+from geswarm.rules.exports.geometry import CORNER, Box, Path, Point
 from geswarm.rules.exports.layout import (
     BRIEF,
     FULL,
@@ -18,13 +19,14 @@ from geswarm.rules.exports.layout import (
     LINE_HEIGHT,
     STATE_SIZE,
     Arrow,
-    Box,
     Form,
     Layout,
-    Point,
+    heading_lines,
     lay_out,
+    state_lines,
     text_width,
 )
+from geswarm.rules.exports.placing import BADGE
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 
@@ -34,6 +36,7 @@ BEHAVIOUR_COLOURS = ("#faa60a", "#1f63de", "#22b278", "#8c56c8", "#787878")
 _TINTS = ("#fff3d9", "#e4ecfc", "#ddf5ea", "#efe6f8", "#ececec")
 _INK, _MUTED, _EFFECT, _PAPER = "#1d2733", "#5c6b7a", "#b3126f", "#ffffff"
 _HEADER, _FOOTER = 58.0, 34.0
+_HEAD_LENGTH, _HEAD_SPREAD = 14.0, 0.4  # of an arrowhead; half its width per length
 _FONT = "Inter, 'Helvetica Neue', Helvetica, Arial, 'DejaVu Sans', sans-serif"
 _LINE_STYLES = (
     f'font-weight="600" fill="{_INK}"',
@@ -110,9 +113,9 @@ def _states(machine: StateMachine, layout: Layout, form: Form) -> Iterator[str]:
         yield f'<g class="state" data-state="{at}">'
         if state.initial:
             yield f"<title>{escape(state.label)}: robots start here</title>"
-            yield _rectangle("initial", box.grown(5), "none", strong, 1.5, 33)
-        yield _rectangle("body", box, pale, strong, 3, 29)
-        first, *others = layout.state_lines[at]
+            yield _rectangle("initial", box.grown(5), "none", strong, 1.5, CORNER + 5)
+        yield _rectangle("body", box, pale, strong, 3, CORNER)
+        first, *others = state_lines(state)
         y = box.y + 5.5 - form.spare / 2 - LINE_HEIGHT * len(others) / 2
         middle = f'x="{box.x:.1f}" text-anchor="middle"'
         yield (
@@ -137,7 +140,7 @@ def _rectangle(name: str, box: Box, fill: str, stroke: str, width: float, radius
 
 
 def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
-    """All curves first, then all labels, so that no curve runs over a label."""
+    """All curves first, then all text, so that no curve runs over it."""
     for arrow in layout.arrows:
         strong, _ = _colour(machine, arrow.source)
         indices = " ".join(map(str, arrow.transitions))
@@ -147,46 +150,81 @@ def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
             f'data-transitions="{indices}">'
         )
         yield (
-            f'<path d="{_path(arrow.path)}" fill="none" stroke="{strong}" '
+            f'<path d="{_shaft(arrow.path)}" fill="none" stroke="{strong}" '
             f'stroke-width="{1.6 + 1.8 * math.sqrt(likeliest):.2f}" stroke-linecap="round"/>'
         )
         yield f'<path d="{_head(arrow.path)}" fill="{strong}"/></g>'
-    for arrow in layout.arrows:
+    for number, arrow in enumerate(layout.arrows, start=1):
+        if arrow.badge:
+            yield from _badge(machine, arrow, number, arrow.badge.x, arrow.badge.y)
         if arrow.lines:
-            yield from _label(machine, arrow)
+            yield from _label(machine, arrow, number)
 
 
-def _path(points: tuple[Point, ...]) -> str:
-    return "M" + " L".join(f"{x:.1f} {y:.1f}" for x, y in points[:-1])
+def _shaft(path: Path) -> str:
+    """A curve as far as into its arrowhead."""
+    end_x, end_y = path[-1]
+    points = [(x, y) for x, y in path if math.hypot(x - end_x, y - end_y) > _HEAD_LENGTH]
+    points.append(_back(path, _HEAD_LENGTH - 4))
+    return "M" + " L".join(f"{x:.1f} {y:.1f}" for x, y in points)
 
 
-def _head(points: tuple[Point, ...]) -> str:
+def _back(path: Path, length: float) -> Point:
+    """The point at which the rest of a curve is so long, as the crow flies."""
+    (x, y), at = path[-1], len(path) - 1
+    while at > 0 and math.hypot(path[at][0] - x, path[at][1] - y) < length:
+        at -= 1
+    there = math.hypot(path[at][0] - x, path[at][1] - y) or 1.0
+    return x + (path[at][0] - x) * length / there, y + (path[at][1] - y) * length / there
+
+
+def _head(path: Path) -> str:
     """A triangle at the end of a curve."""
-    (x, y), (before_x, before_y) = points[-1], points[max(0, len(points) - 3)]
-    angle = math.atan2(y - before_y, x - before_x)
-    corners = [(x + 5 * math.cos(angle), y + 5 * math.sin(angle))]
-    for side in (-1, 1):
-        back = angle + math.pi + side * 0.42
-        corners.append((x + 11 * math.cos(back), y + 11 * math.sin(back)))
+    (x, y), (base_x, base_y) = path[-1], _back(path, _HEAD_LENGTH)
+    dx, dy = (base_x - x) * _HEAD_SPREAD, (base_y - y) * _HEAD_SPREAD
+    corners = [(x, y), (base_x - dy, base_y + dx), (base_x + dy, base_y - dx)]
     return "M" + " L".join(f"{cx:.1f} {cy:.1f}" for cx, cy in corners) + " Z"
 
 
-def _label(machine: StateMachine, arrow: Arrow) -> Iterator[str]:
+def _badge(machine: StateMachine, arrow: Arrow, number: int, x: float, y: float) -> Iterator[str]:
+    """The number of an arrow, on it and in the list."""
+    strong, _ = _colour(machine, arrow.source)
+    yield (
+        f'<circle class="badge" cx="{x:.1f}" cy="{y:.1f}" r="{BADGE / 2:.0f}" fill="{_PAPER}" '
+        f'stroke="{strong}" stroke-width="1.5"/>'
+    )
+    yield (
+        f'<text x="{x:.1f}" y="{y + 4:.1f}" text-anchor="middle" font-size="11.5" '
+        f'font-weight="700" fill="{_INK}">{number}</text>'
+    )
+
+
+def _label(machine: StateMachine, arrow: Arrow, number: int) -> Iterator[str]:
     box = arrow.label
     yield _rectangle("paper", box, _PAPER, "none", 0, 6)
     bar = Box(box.x - box.width / 2, box.y, 3, box.height - 4)
     yield _rectangle("bar", bar, _colour(machine, arrow.source)[0], "none", 0, 1.5)
-    y = box.y - box.height / 2 + 4
+    x, y = box.x - box.width / 2 + 10, box.y - box.height / 2 + 4
+    if heading := heading_lines(machine, arrow):
+        yield from _badge(machine, arrow, number, x + 12, y + LINE_HEIGHT)
+        for row in heading:
+            y += LINE_HEIGHT
+            yield _row(x + 28, y, f'font-weight="700" fill="{_INK}"', row)
+        y += 6
     for at, rows in zip(arrow.transitions, arrow.lines, strict=True):
         transition = machine.transitions[at]
         rules = " ".join(map(str, transition.rules))
         yield f'<g class="transition" data-transition="{at}" data-rules="{rules}">'
         yield f"<title>{escape(machine.describe(transition))}</title>"
-        for number, row in enumerate(rows):
+        for line, row in enumerate(rows):
             y += LINE_HEIGHT
-            yield (
-                f'<text x="{box.x - box.width / 2 + 10:.1f}" y="{y - 4:.1f}" '
-                f'font-size="{LABEL_SIZE}" {_LINE_STYLES[min(number, 2)]}>{escape(row)}</text>'
-            )
+            yield _row(x, y, _LINE_STYLES[min(line, 2)], row)
         yield "</g>"
         y += 5
+
+
+def _row(x: float, y: float, style: str, text: str) -> str:
+    """A line of a label; y is its lower edge."""
+    return (
+        f'<text x="{x:.1f}" y="{y - 4:.1f}" font-size="{LABEL_SIZE}" {style}>{escape(text)}</text>'
+    )
