@@ -63,7 +63,7 @@ class Compared:
                 compared = ["", "", ""]
             else:
                 comparison = contrast.comparison
-                compared = [f"{comparison.p_value:.2g}", f"{contrast.p_holm:.2g}"]
+                compared = [f"{comparison.p_value:#.2g}", f"{contrast.p_holm:#.2g}"]
                 compared.append(f"{comparison.effect:.2f}")
             rows.append([case.scenario.name, case.rules, *figures, *compared])
         return rows

@@ -22,6 +22,7 @@ PALETTE = (
 _FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif'
 _INK, _GRID = "#1b2430", "#e3e7ec"
 _COLLECTED = "collected objects"
+_ASIDE = 0.002  # of zone_miss, between points that would cover each other
 _LEVEL_TICKS = 6  # more names than these have no room side by side
 
 
@@ -130,14 +131,16 @@ def sensitivity_curves(
     Args:
         samples: Cases whose scenarios differ in `zone_miss`.
         colours: Of the rule sets, by name.
-        references: The same from another simulator, drawn as points.
+        references: The same from another simulator, drawn as points; those of one `zone_miss` stand
+            a little apart, so that their bars are told apart.
         marks: Vertical lines, by name.
 
     Returns:
         A plotly figure, a line and a band per rule set.
     """
     figure = _figure("zone_miss: chance per control step that zones are not perceived", _COLLECTED)
-    for name in dict.fromkeys(case.rules for case in samples):
+    names = list(dict.fromkeys(case.rules for case in samples))
+    for number, name in enumerate(names):
         x, mean, sd = _over_zone_miss(samples, name)
         colour, group = colours[name], {"legendgroup": name}
         red, green, blue = (int(colour[at : at + 2], 16) for at in (1, 3, 5))
@@ -154,8 +157,9 @@ def sensitivity_curves(
         line = {"color": colour, "width": 2.5}
         figure.add_scatter(x=x, y=mean, name=escape(name), mode="lines", line=line, **group)
         x, mean, sd = _over_zone_miss(references, name)
+        aside = _ASIDE * (number - (len(names) - 1) / 2)
         figure.add_scatter(
-            x=x,
+            x=[at + aside for at in x],
             y=mean,
             error_y={"type": "data", "array": sd, "color": colour},
             name=f"{escape(name)}, ARGoS 3",

@@ -67,9 +67,10 @@ def table_html(headings: Sequence[str], rows: Iterable[Sequence[str]], texts: in
     """
 
     def line(tag: str, cells: Sequence[str]) -> str:
-        kinds = ["" if at < texts else ' class="number"' for at in range(len(cells))]
+        kinds = ["text" if at < texts else "number" for at in range(len(cells))]
         inner = (
-            f"<{tag}{kind}>{escape(cell)}</{tag}>" for kind, cell in zip(kinds, cells, strict=True)
+            f'<{tag} class="{kind}">{escape(cell)}</{tag}>'
+            for kind, cell in zip(kinds, cells, strict=True)
         )
         return f"<tr>{''.join(inner)}</tr>"
 

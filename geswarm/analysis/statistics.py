@@ -1,4 +1,7 @@
-"""Comparing two samples of runs, as the paper does (section 3.2): rank tests at p < 0.001."""
+"""Comparing two samples of runs by their ranks.
+
+Significant is p < 0.001, as in the paper (section 3.2), which does not name its test.
+"""
 
 from __future__ import annotations
 

@@ -122,10 +122,17 @@ def _progress() -> Iterator[OnProgress]:
             progress.update(task, completed=share, description=doing)
             if not console.is_terminal and log_is_due():
                 seconds = progress.tasks[task].time_remaining
-                left = "" if seconds is None else f", {seconds / 60:.0f} min left"
+                left = "" if seconds is None else f", {_duration(seconds)} left"
                 progress.console.print(f"{share:.1%}: {doing}{left}", soft_wrap=True)
 
         yield show
+
+
+def _duration(seconds: float) -> str:
+    """Like 40 s, 12 min or 1.5 h."""
+    if seconds < 60:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
 def _print_claims(results: Results) -> None:

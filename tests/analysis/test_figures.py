@@ -65,6 +65,14 @@ def test_sensitivity_has_means_bands_and_points():
     assert [note.text for note in figure.layout.annotations] == ["here"]
 
 
+def test_points_at_one_zone_miss_stand_apart_around_it():
+    samples = {Case(name, PAPER): evaluation(1, 3) for name in ("a", "b")}
+    figure = sensitivity_curves(samples, {"a": "#102030", "b": "#302010"}, samples, {})
+    left, right = (trace.x[0] for trace in figure.data if trace.mode == "markers")
+    assert left < PAPER.zone_miss < right
+    assert left + right == 2 * PAPER.zone_miss
+
+
 def test_tables_and_titles_are_escaped():
-    assert "<td>&lt;i&gt;</td>" in table_html(["name"], [["<i>"]])
+    assert '<td class="text">&lt;i&gt;</td>' in table_html(["name"], [["<i>"]])
     assert "<title>&lt;i&gt;</title>" in page("<i>", "")

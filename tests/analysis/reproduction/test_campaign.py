@@ -11,6 +11,7 @@ import pytest
 
 from geswarm.analysis.reproduction import Campaign, CampaignError, Plan, Verdict
 from geswarm.cli import main
+from geswarm.cli.reproduce import _duration
 from geswarm.experiment import EvolutionRun
 from geswarm.rules import load_rule_set
 from geswarm.sim import EvaluationStopped
@@ -122,6 +123,14 @@ def test_interrupted_at_random_moments_it_ends_the_same(whole, tmp_path, kills):
     directory = tmp_path / "part"
     assert interrupted(directory, kills, random.Random(kills)) >= 2
     assert made(directory) == made(whole)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.2, "0 s"), (59, "59 s"), (90, "2 min"), (5399, "90 min"), (9000, "2.5 h")],
+)
+def test_the_time_left_is_short(seconds, words):
+    assert _duration(seconds) == words
 
 
 def test_stop_keeps_what_is_done(tmp_path):

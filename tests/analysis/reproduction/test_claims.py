@@ -26,8 +26,9 @@ def test_what_the_paper_found_makes_every_claim_hold():
     results = fabricated()
     assert set(verdicts(results)) == {HOLDS}
     most = next(claim for claim in claims(results) if "7 of 10" in claim.paper)
-    assert most.found.startswith("7 of 10; 7 with Holm's correction")
-    assert "seed 8, seed 9" in most.found
+    assert most.found == "7 of 10, 7 with Holm's correction; comparable: seed 8, seed 9"
+    worse = next(claim for claim in claims(results) if "only 1 of 10" in claim.paper)
+    assert worse.found == "better than 1 of 10: seed 10"
     assert len(claims(results)) == 14
 
 
@@ -78,6 +79,52 @@ def test_one_lost_case_is_enough_to_fail():
     assert verdicts(results, "EVO 8 outperforms the hand-coded behaviour with") == [HOLDS, FAILS]
 
 
+@pytest.mark.parametrize("kind", ["scalability", "flexibility"])
+@pytest.mark.parametrize("rules", ["seed 1", "EVO 8", "hand-coded"])
+def test_one_bent_line_fails_one_claim(kind, rules):
+    results = fabricated(evolved=[150] + [100] * 9, hand_coded=30)
+    assert set(verdicts(results)) == {HOLDS}
+    samples = getattr(results, kind)
+    ten, twenty = (Case(rules, load_scenario(f"{kind}-{robots}")) for robots in (10, 20))
+    samples[twenty] = sample(1.05 * samples[ten].mean)
+    (failed,) = (claim for claim in claims(results) if claim.verdict is FAILS)
+    assert failed.where == f"3.2.2, Fig. {'3a' if kind == 'scalability' else '3b'}"
+    assert "linearly" in failed.paper
+    assert rules in failed.paper
+
+
+@pytest.mark.parametrize("kind", ["scalability", "flexibility"])
+@pytest.mark.parametrize(("mean", "verdict"), [(10, FAILS), (600, HOLDS), (65, OPEN)])
+def test_each_case_of_figure_3_counts(kind, mean, verdict):
+    results = fabricated()
+    samples = getattr(results, kind)
+    for rules in ("seed 1", "EVO 8"):
+        samples[Case(rules, load_scenario(f"{kind}-5"))] = sample(mean * 5 / 4)
+    at = f"Fig. {'3a' if kind == 'scalability' else '3b'}"
+    ahead = [claim for claim in claims(results) if "with 5" in claim.found]
+    here = [claim for claim in ahead if claim.where.endswith(at)]
+    assert len(ahead) == 2 * len(here) == 4
+    assert {claim.verdict for claim in here} == {verdict}
+    assert {claim.verdict for claim in ahead if claim not in here} == {HOLDS}
+    found = f"ahead in {3 if verdict is HOLDS else 2} of 3 (p < 0.001), "
+    assert all(found in claim.found for claim in here)
+
+
+def test_effect_and_correction_stand_beside_the_plain_p_values():
+    results = fabricated()
+    scenario = load_scenario("scalability-5")
+    rival = results.scalability[Case("hand-coded", scenario)]
+    for rules in ("seed 1", "EVO 8"):
+        results.scalability[Case(rules, scenario)] = sample(rival.mean + 4.5)
+    contests = [one for one in in_larger_swarms(results) if one.a.scenario == scenario][:2]
+    assert all(one.comparison.p_value < 0.001 < one.p_holm for one in contests)
+    ahead = [one.found for one in claims(results) if "with 5" in one.found and "3a" in one.where]
+    assert len(ahead) == 2
+    for found, contest in zip(ahead, contests, strict=True):
+        effect = f"smallest A = {contest.comparison.effect:.2f}"
+        assert f"ahead in 3 of 3 (p < 0.001), 2 with Holm's correction, {effect}: " in found
+
+
 @pytest.mark.parametrize(
     ("growth", "gain", "verdict"),
     [
@@ -96,10 +143,14 @@ def test_scaling(growth, gain, verdict):
 
 
 def test_scaling_that_varies_too_much_cannot_be_told():
-    results = fabricated()
-    for case in results.scalability:
-        results.scalability[case] = sample(10 * case.scenario.robots, spread=60)
-    assert verdicts(results, "linearly")[:3] == [OPEN] * 3
+    for kind, noisy in (("scalability", slice(3)), ("flexibility", slice(3, 6))):
+        results = fabricated()
+        samples = getattr(results, kind)
+        for case in samples:
+            samples[case] = sample(10 * case.scenario.robots, spread=60)
+        expected = [HOLDS] * 6
+        expected[noisy] = [OPEN] * 3
+        assert verdicts(results, "linearly") == expected
 
 
 def test_the_line_is_fitted_to_all_runs():

@@ -15,6 +15,9 @@ FIGURES = {
     "figure-3b": (".boxlayer path.box", 9),
     "figure-sensitivity": (".scatterlayer .trace", 6),
 }
+STROKES = "lines => lines.map(line => line.style.stroke)"
+CUT = """() => [...document.querySelectorAll("figure, .scroll")]
+    .filter(box => box.scrollWidth > box.clientWidth).map(box => box.innerText)"""
 NASTY = "</script><script>alert(1)</script><b>&amp;"
 
 
@@ -77,12 +80,15 @@ def test_it_opens_offline_and_every_figure_is_drawn(browser, tmp_path):
     assert page.locator("#figure-2b .annotation").count() == 8
     assert page.locator("#claims tbody tr").count() == 14
     assert page.get_by_text(NASTY).count() == 1
-    width = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
-    page.emulate_media(media="print")
-    page.set_viewport_size({"width": 688, "height": 900})
-    printed = page.evaluate("document.documentElement.scrollWidth")
+    colours = page.locator("#figure-2a .scatterlayer .js-line").evaluate_all(STROKES)
+    assert len(set(colours)) == 10
+    for width, media in ((1200, "screen"), (700, "screen"), (688, "print")):
+        page.emulate_media(media=media)
+        page.set_viewport_size({"width": width, "height": 900})
+        assert page.evaluate("document.documentElement.scrollWidth") <= width, media
+        assert page.evaluate(CUT) == [], media
+    tops = [page.locator(f"#figure-{at}").bounding_box()["y"] for at in ("2a", "2b", "3a", "3b")]
     context.close()
-    assert width[0] <= width[1]
-    assert printed <= 688
+    assert tops[0] == tops[1] < tops[2] == tops[3]
     assert complaints == []
     assert requests == [path.as_uri()]
