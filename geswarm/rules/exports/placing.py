@@ -63,7 +63,7 @@ class _Ground:
         hidden = np.count_nonzero((distance < _CURVE_GAP) & (foreign | ends))
         grazed = 0 if place.upon else np.count_nonzero((distance < 2) & own)
         away = max(0.0, float(distance[own].min()))
-        nearest = min(distance[foreign], default=np.inf)
+        nearest = float(distance[foreign].min(initial=np.inf))
         detour = 0.4 * away + 2.0 * max(0.0, away + _CLOSE - nearest) + 10.0 * grazed
         return FAULT * (covered + hidden) + detour + place.detour
 
