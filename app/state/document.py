@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from geswarm.rules import Rule, RuleSet, apply_edit
 
 MAX_HISTORY = 1000
 MAX_LATE = 100
 """Versions by which an edit may be late, and still find the rule it was meant for."""
+
+
+_Standing: TypeAlias = tuple[RuleSet, RuleSet]
+"""A rule set, and which one had been loaded last then."""
 
 
 class StaleError(Exception):
@@ -24,7 +28,7 @@ class RuleDocument:
     Attributes:
         rule_set: As it stands now.
         version: Counts the changes; never goes back, not even by undo.
-        loaded: The rule set that was loaded last, for comparison.
+        loaded: The rule set that was loaded last, for comparison; undo takes a load back too.
         saved: The rule set that was saved last; at first the one loaded.
     """
 
@@ -32,8 +36,8 @@ class RuleDocument:
         self.rule_set = rule_set
         self.version = 1
         self.loaded = self.saved = rule_set
-        self._past: list[RuleSet] = []
-        self._future: list[RuleSet] = []
+        self._past: list[_Standing] = []
+        self._future: list[_Standing] = []
         self._recent = deque([rule_set], MAX_LATE + 1)
 
     @property
@@ -55,7 +59,7 @@ class RuleDocument:
     def before(self) -> RuleSet | None:
         """The rules before the last change that is more than words; None if there was none."""
         now = bare_rules(self.rule_set)
-        return next((past for past in reversed(self._past) if bare_rules(past) != now), None)
+        return next((past for past, _ in reversed(self._past) if bare_rules(past) != now), None)
 
     def edit(self, edit: dict[str, Any]) -> None:
         """Make one edit (see `geswarm.rules.edits`).
@@ -78,31 +82,34 @@ class RuleDocument:
 
     def load(self, rule_set: RuleSet) -> None:
         """Put a rule set from elsewhere in place; differences are counted from it."""
-        self.loaded = rule_set
-        self.replace(rule_set)
+        self._replace(rule_set, rule_set)
 
     def replace(self, rule_set: RuleSet) -> None:
         """Put another rule set in place; `undo` brings the present one back."""
-        if rule_set == self.rule_set:
-            return
-        self._past = [*self._past[-MAX_HISTORY + 1 :], self.rule_set]
-        self._future = []
-        self._show(rule_set)
+        self._replace(rule_set, self.loaded)
 
     def undo(self) -> None:
         """Take the last change back, if there is one."""
         if self._past:
-            self._future.append(self.rule_set)
-            self._show(self._past.pop())
+            self._future.append((self.rule_set, self.loaded))
+            self._show(*self._past.pop())
 
     def redo(self) -> None:
         """Make the last change taken back again, if there is one."""
         if self._future:
-            self._past.append(self.rule_set)
-            self._show(self._future.pop())
+            self._past.append((self.rule_set, self.loaded))
+            self._show(*self._future.pop())
 
-    def _show(self, rule_set: RuleSet) -> None:
-        self.rule_set = rule_set
+    def _replace(self, rule_set: RuleSet, loaded: RuleSet) -> None:
+        if rule_set == self.rule_set:
+            self.loaded = loaded
+            return
+        self._past = [*self._past[-MAX_HISTORY + 1 :], (self.rule_set, self.loaded)]
+        self._future = []
+        self._show(rule_set, loaded)
+
+    def _show(self, rule_set: RuleSet, loaded: RuleSet) -> None:
+        self.rule_set, self.loaded = rule_set, loaded
         self.version += 1
         self._recent.append(rule_set)
 

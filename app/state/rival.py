@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from geswarm.rules import RuleSet, load_preset
+from geswarm.rules import RuleSet, load_preset, preset_names
 
 from .document import RuleDocument
 from .runs import Runs
@@ -32,7 +32,7 @@ class Rival:
 @cache
 def _presets() -> tuple[RuleSet, ...]:
     """Read once: the panel asks ten times a second."""
-    return tuple(load_preset(name) for name in ("hand-coded", "evo8"))
+    return tuple(load_preset(name) for name in preset_names())
 
 
 def rivals_offered(document: RuleDocument, runs: Runs) -> dict[str, RuleSet]:

@@ -133,6 +133,17 @@ def test_files_and_presets_are_loaded_and_can_be_undone(session):
     assert session.world.rule_set == load_preset("evo8")
 
 
+def test_undo_takes_back_what_was_loaded_too(session):
+    evo8, hand_coded = load_preset("evo8"), load_preset("hand-coded")
+    session.load_preset("hand-coded")
+    assert session.document.loaded == hand_coded
+    session.undo()
+    assert session.document.loaded == session.document.rule_set == evo8
+    assert session.document.unsaved is None
+    session.redo()
+    assert session.document.loaded == session.document.rule_set == hand_coded
+
+
 def test_commands_are_carried_out_by_the_next_frame(session):
     session.post(lambda session: session.edit(HALF_P))
     assert session.document.version == 1

@@ -122,7 +122,7 @@ def test_the_rival_follows_reset_seed_and_scenario(session):
 
 
 def test_only_what_there_is_can_be_compared_with(session):
-    assert session.rivals_offered() == ("Hand-coded", "EVO 8")
+    assert session.rivals_offered() == ("EVO 8", "Evolved", "Hand-coded")
     with pytest.raises(KeyError):
         session.compare_with(BEST)
     assert session.rival is None
