@@ -177,14 +177,17 @@ class EvolutionPage:
         self.session.evolution.inject(rule_set)
         return f"{rule_set.name or 'The rules of the table'}: enters with the next generation"
 
-    def _load_best(self, _message: Message) -> None:
+    def _load_best(self, _message: Message) -> str:
         look = self.session.runs.look
         if look is None or look.best is None:
             raise RequestError("there is no best rule set yet")
         self.session.load(look.best)
+        return f"{look.best.name}: now in the table and in the arena; undo takes it out again"
 
-    def _load(self, _message: Message) -> None:
-        self.session.load(self._chosen.rule_set)
+    def _load(self, _message: Message) -> str:
+        rule_set = self._chosen.rule_set
+        self.session.load(rule_set)
+        return f"{rule_set.name}: now in the table and in the arena; undo takes it out again"
 
     def _compare_with(self, _message: Message) -> str:
         name = self._chosen.rule_set.name

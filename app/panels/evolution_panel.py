@@ -182,7 +182,7 @@ def status_html(evolution: EvolutionThread, findings: list[str]) -> str:
         record = evolution.history[-1]
         text = (
             f"Generation {record.generation} of {evolution.generations}, {evolution.phase.value}: "
-            f"best {record.best_so_far:.1f}, mean {record.mean:.1f}"
+            f"best {record.best_so_far:.1f}, mean {record.mean:.1f}."
         )
     where = f" Kept in {evolution.directory}." if evolution.directory else ""
     return f'<div style="padding:.2em .9em;font-size:.85em">{escape(text + where)}</div>'

@@ -7,7 +7,7 @@ import { axis, decimal } from "./figures.js";
 export const COLOURS = ["#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#0072b2"];
 
 const HEIGHT = 212;
-const [LEFT, RIGHT, TOP, BOTTOM] = [30, 8, 6, 30];
+const [LEFT, RIGHT, TOP, BOTTOM] = [44, 8, 6, 30];
 const LABEL = 14; // px between the labels of two levels
 
 /**
@@ -64,8 +64,9 @@ export class Chart {
     this.picture.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
     this.picture.replaceChildren(
       ...grid(across.ticks, up.ticks, x, y, width),
-      ...levels.flatMap((level, i) => levelLine(level, levels.slice(0, i), y, width)),
+      ...levels.map((level) => levelLine(level, y, width)),
       ...lines.map((line) => curve(line, x, y)).reverse(),
+      ...levels.map((level, i) => levelName(level, levels.slice(0, i), y)),
       ...marks.map((mark) => markLine(mark, x, y)),
       this.cursor,
     );
@@ -171,17 +172,20 @@ function grid(across, up, x, y, width) {
     ...across.map((tick) => svg("line", { class: "grid", x1: x(tick), x2: x(tick), y1: TOP, y2: bottom })),
     ...across.map((tick) => text(String(tick), { class: "tick", x: x(tick), y: bottom + 12 })),
     text("generation", { class: "tick", x: (LEFT + width - RIGHT) / 2, y: HEIGHT - 5 }),
+    text("objects collected", { class: "tick", transform: `translate(10 ${(TOP + bottom) / 2}) rotate(-90)` }),
   ];
 }
 
-/** A dashed line across, with its name above, or below where another level's name is. */
-function levelLine({ label, y: value }, others, y, width) {
+/** A dashed line across. */
+function levelLine({ y: value }, y, width) {
+  return svg("line", { class: "level", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) });
+}
+
+/** The level's name above its line, or below where another level's name is; no curve crosses it. */
+function levelName({ label, y: value }, others, y) {
   const taken = others.some((other) => other.y >= value && y(value) - y(other.y) < LABEL);
   const at = y(value) + (taken ? LABEL - 4 : -3);
-  return [
-    svg("line", { class: "level", x1: LEFT, x2: width - RIGHT, y1: y(value), y2: y(value) }),
-    text(`${label} ${decimal(value)}`, { class: "level-name", x: LEFT + 5, y: at }),
-  ];
+  return text(`${label} ${decimal(value)}`, { class: "level-name", x: LEFT + 5, y: at });
 }
 
 /** A thin line where something was done, with a dot where rules entered. */

@@ -4,7 +4,8 @@ import { h, identify, svg } from "../common/dom.js";
 import { axis, decimal } from "../common/figures.js";
 import { Rows } from "./rows.js";
 
-const [HEIGHT, MARGIN] = [160, 14];
+const HEIGHT = 176;
+const [LEFT, RIGHT, TOP, BOTTOM] = [44, 8, 8, 30];
 
 export class Ancestors {
   #chosen = null;
@@ -18,11 +19,10 @@ export class Ancestors {
   constructor(root, send) {
     this.picture = svg("svg", { class: "family", height: HEIGHT, role: "img" });
     identify(this.picture, "family", "Ancestors of the best by generation and fitness");
-    const columns = ["Generation", "Fitness", "Bred by", "Codons"];
-    this.rows = new Rows("ancestor", columns, ([generation, key]) => send({ type: "choose", generation, key }));
+    this.rows = new Rows("ancestor", COLUMNS, ([generation, key]) => send({ type: "choose", generation, key }));
     this.words = h("p", { class: "note" });
     this.filled = h("div", { hidden: true }, this.words, this.picture, this.rows.node);
-    this.empty = h("p", { class: "note" }, "There is no best individual yet.");
+    this.empty = h("p", { class: "note" }, "There is no best individual yet: start an evolution, or open one of the runs.");
     root.append(this.empty, this.filled);
     new ResizeObserver(() => this.#draw()).observe(this.filled);
   }
@@ -52,8 +52,8 @@ export class Ancestors {
     if (!width || !line.length) return;
     const across = axis([Math.min(...all.map(([generation]) => generation)), ...line.map(([generation]) => generation)]);
     const up = axis(all.map(([, , fitness]) => fitness));
-    const x = (generation) => MARGIN + ((width - 2 * MARGIN) * across.percent(generation)) / 100;
-    const y = (fitness) => HEIGHT - MARGIN - ((HEIGHT - 2 * MARGIN) * up.percent(fitness)) / 100;
+    const x = (generation) => LEFT + ((width - LEFT - RIGHT) * across.percent(generation)) / 100;
+    const y = (fitness) => HEIGHT - BOTTOM - ((HEIGHT - TOP - BOTTOM) * up.percent(fitness)) / 100;
     const places = new Map(all.map(([generation, key, fitness]) => [`${generation} ${key}`, [x(generation), y(fitness)]]));
     const edges = all.flatMap(([generation, key, , parents]) =>
       parents.map((birth) => [places.get(`${generation} ${key}`), places.get(birth.join(" "))]).filter(([, from]) => from),
@@ -62,8 +62,10 @@ export class Ancestors {
     const trunk = known.map(([generation, key]) => places.get(`${generation} ${key}`).join(" "));
     this.picture.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
     this.picture.replaceChildren(
-      ...across.ticks.map((tick) => label(tick, { class: "tick", x: x(tick), y: HEIGHT - 2 })),
-      ...up.ticks.map((tick) => label(tick, { class: "tick up", x: MARGIN + 4, y: y(tick) + 3 })),
+      ...across.ticks.map((tick) => label(tick, { class: "tick", x: x(tick), y: HEIGHT - BOTTOM + 14 })),
+      ...up.ticks.map((tick) => label(tick, { class: "tick up", x: LEFT - 6, y: y(tick) + 3 })),
+      label("generation", { class: "tick", x: (LEFT + width - RIGHT) / 2, y: HEIGHT - 4 }),
+      label("fitness", { class: "tick", transform: `translate(10 ${(TOP + HEIGHT - BOTTOM) / 2}) rotate(-90)` }),
       ...edges.map(([[x1, y1], [x2, y2]]) => svg("line", { class: "edge", x1, y1, x2, y2 })),
       ...[...places.values()].map(([cx, cy]) => svg("circle", { cx, cy, r: 2 })),
       svg("path", { class: "trunk", d: `M${trunk.join("L")}` }),
@@ -74,6 +76,13 @@ export class Ancestors {
     );
   }
 }
+
+const COLUMNS = {
+  Generation: "In which it was bred",
+  Fitness: "Objects collected per run, mean of its evaluations",
+  "Bred by": "What made it out of its parents",
+  Codons: "Length of its genome",
+};
 
 const counted = (count) => (count > 1 ? `The picture shows ${count - 1} ancestors.` : "");
 

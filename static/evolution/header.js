@@ -13,9 +13,9 @@ const WORDS = {
   FAILED: "failed",
 };
 
-/** @param {import("./protocol.js").Preset} preset @returns {string} "modern, changed: mutation". */
+/** @param {import("./protocol.js").Preset} preset @returns {string} "preset modern, changed: mutation". */
 export function presetWords({ name, changed }) {
-  return changed.length ? `${name}, changed: ${changed.map(readable).join(", ")}` : name;
+  return changed.length ? `preset ${name}, changed: ${changed.map(readable).join(", ")}` : `preset ${name}`;
 }
 
 export class Header {
@@ -71,7 +71,7 @@ export class Header {
 }
 
 function aboutWords({ scenario, preset, seed, frozen }) {
-  const parts = [scenario, presetWords(preset), `seed ${seed}`];
+  const parts = [`scenario ${scenario}`, presetWords(preset), `seed ${seed}`];
   if (frozen) parts.push(frozen === 1 ? "1 rule frozen" : `${frozen} rules frozen`);
   return parts.join(" · ");
 }

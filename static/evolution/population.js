@@ -20,8 +20,7 @@ export class Population {
     this.tiles = h("div", { class: "tiles" });
     this.shares = h("div", { class: "shares" });
     identify(this.shares, "behaviours");
-    const columns = ["#", "Fitness", "Eval.", "Codons", "Rules", "Behav.", "Bred"];
-    this.rows = new Rows("individual", columns, ([generation, key]) => send({ type: "choose", generation, key }));
+    this.rows = new Rows("individual", COLUMNS, ([generation, key]) => send({ type: "choose", generation, key }));
     this.note = h("p", { class: "note" });
     this.filled = h("div", { hidden: true }, this.tiles, this.shares, this.rows.node, this.note);
     this.empty = h("p", { class: "note" }, "There is no population yet: start an evolution, or open one of the runs.");
@@ -68,6 +67,15 @@ export class Population {
   }
 }
 
+const COLUMNS = {
+  "#": "Rank by fitness",
+  Fitness: "Objects collected per run, mean of its evaluations",
+  "Eval.": "How often it was evaluated",
+  Codons: "Length of its genome",
+  Rules: "How many rules it has",
+  "Behav.": "Individuals with the same number decide the same in every situation; common ones have a colour",
+  Bred: "Generation in which it was bred",
+};
 const BEHAVIOURS = "Individuals whose robots decide the same in every situation have one behaviour";
 const DIVERSITY = "As many equally frequent behaviours would be as diverse (exp of Shannon's entropy)";
 

@@ -7,14 +7,14 @@ export class Rows {
 
   /**
    * @param {string} testid Of the rows, with their number.
-   * @param {string[]} columns
+   * @param {Object<string, string>} columns What they are called, and what that means.
    * @param {(item: any) => void} choose
    */
   constructor(testid, columns, choose) {
     this.testid = testid;
     this.choose = choose;
     this.body = h("tbody", {});
-    const heads = columns.map((name) => h("th", { scope: "col" }, name));
+    const heads = Object.entries(columns).map(([name, title]) => h("th", { scope: "col", title }, name));
     this.node = h("table", { class: "rows" }, h("thead", {}, h("tr", {}, ...heads)), this.body);
     this.body.addEventListener("keydown", (event) => this.#key(event));
     this.body.addEventListener("click", (event) => this.#pick(event.target.closest("tr")));

@@ -28,7 +28,7 @@ export class Runs {
 
   /** @param {import("./protocol.js").RunsMessage} message */
   update({ compared, runs }) {
-    this.note.textContent = runs.length ? "Tick runs to lay their curves over one another." : "No runs are kept here yet.";
+    this.note.textContent = runs.length ? "Tick runs to lay their curves over one another." : "No runs are kept here yet: every evolution that is started will be.";
     const names = new Set(runs.map((run) => run.name));
     for (const [name, item] of this.#items) {
       if (names.has(name)) continue;
@@ -61,7 +61,7 @@ class RunItem {
     this.box = h("input", { type: "checkbox", onchange: () => send({ type: "compare", name, on: this.box.checked }) });
     this.open = h("button", { type: "button", class: "run-name", title: "Look at this run", onclick: () => send({ type: "open", name }) }, name);
     this.details = h("div", { class: "run-details" });
-    this.best = h("b", { class: "run-best", title: "Best so far" });
+    this.best = h("b", { class: "run-best", title: "Best so far, objects collected" });
     this.state = h("span", { class: "run-state" });
     this.go = h("button", { type: "button", class: "quiet", onclick: () => resume(name) }, "Resume");
     const text = `The directory ${name} with its history and best rules is removed for good.`;
@@ -91,7 +91,7 @@ class RunItem {
     this.open.disabled = Boolean(run.problem);
     this.details.replaceChildren(...(run.problem ? [icon("warning"), run.problem] : [detailWords(run)]));
     this.details.classList.toggle("problem", Boolean(run.problem));
-    this.best.textContent = run.best === null ? "" : decimal(run.best);
+    this.best.textContent = run.best === null ? "" : `best ${decimal(run.best)}`;
     this.state.textContent = STATES[run.phase];
     this.state.className = `run-state ${run.phase.toLowerCase()}`;
     this.go.hidden = run.phase !== "STOPPED";
@@ -101,5 +101,5 @@ class RunItem {
 
 function detailWords({ scenario, preset, seed, done, generations, written }) {
   const day = new Date(1000 * written).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
-  return [scenario, presetWords(preset), `seed ${seed}`, `${done} of ${generations} generations`, day].join(" · ");
+  return [`scenario ${scenario}`, presetWords(preset), `seed ${seed}`, `${done} of ${generations} generations`, day].join(" · ");
 }

@@ -214,7 +214,10 @@ def test_individuals_are_looked_at_and_loaded(talker):
     assert loaded.name == f"Generation {generation}, individual {key}"
     assert loaded.origin.generation == generation
     assert talker.session.world.rule_set == loaded
+    assert talker.last("notice")["text"].startswith(f"{loaded.name}: now in the table")
     talker.say("load_best")
+    best = talker.session.document.rule_set
+    assert talker.last("notice")["text"].startswith(f"{best.name}: now in the table")
     talker.say("compare_with")
     assert talker.session.rival.name == CHOSEN
     assert talker.session.rival.swarm.world.rule_set == loaded
