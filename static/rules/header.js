@@ -29,9 +29,10 @@ export class Header {
    * @param {import("./session.js").Session} session
    * @param {import("../common/notices.js").Notices} notices
    * @param {Element} people Who else is here.
+   * @param {Element} help Shows the keys.
    * @param {...Element} below Shown under the title.
    */
-  constructor(root, session, notices, people, ...below) {
+  constructor(root, session, notices, people, help, ...below) {
     this.session = session;
     this.notices = notices;
     this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => session.command({ type: "undo" }));
@@ -40,7 +41,7 @@ export class Header {
     identify(this.redo, "redo", "Redo");
     this.origin = h("div", { class: "origin", "data-testid": "origin" });
     const title = h("div", { class: "title" }, this.#name(), this.origin, people);
-    const actions = h("div", { class: "actions" }, this.undo, this.redo, ...this.#files());
+    const actions = h("div", { class: "actions" }, help, this.undo, this.redo, ...this.#files());
     root.append(h("div", { class: "title-bar" }, title, actions), ...below);
   }
 

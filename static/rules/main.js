@@ -54,9 +54,8 @@ const tabs = new Tabs(
     { id: "text", label: "Text", panel: element("text"), tools: text.tools, shown: () => text.shown() },
     { id: "changes", label: "Changes", panel: element("changes"), tools: [changes.back], shown: () => changes.shown() },
   ],
-  help.button,
 );
-const header = new Header(element("header"), session, notices, people.button, live.node, verdict.node, tabs.node, worth.legend);
+const header = new Header(element("header"), session, notices, people.button, help.button, live.node, verdict.node, tabs.node, worth.legend);
 let resend = false;
 
 const handlers = {
@@ -67,6 +66,7 @@ const handlers = {
   rules(received) {
     session.receive(received);
     const message = session.state;
+    document.body.classList.remove("waiting");
     header.update(message);
     live.rulesChanged(message.rule_set.rules);
     verdict.rulesChanged(message);

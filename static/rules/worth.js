@@ -60,7 +60,7 @@ export class Worth {
     this.table = table;
     const button = (id, label, onclick, ...children) =>
       h("button", { type: "button", class: "quiet", "data-testid": id, "aria-label": label, onclick }, ...children);
-    const words = [h("span", { class: "long" }, "What is each piece worth?"), h("span", { class: "short" }, "Worth?")];
+    const words = [h("span", { class: "long" }, "What is each piece worth?"), h("span", { class: "short" }, "What is each worth?")];
     this.start = button("worth-start", "What is each piece worth?", () => session.command({ type: "worth_start" }), ...words);
     this.start.title = "Takes every rule and element out in turn and runs the swarm without it";
     this.hide = button("worth-hide", "Hide what each piece is worth", () => this.#show(null), "Hide worth");

@@ -193,3 +193,13 @@ def test_the_theme_can_be_forced(browser, server, theme):
     red = page.evaluate("getComputedStyle(document.body).backgroundColor.match(/\\d+/)[0]")
     assert (int(red) > 128) == (theme == "light")
     page.close()
+
+
+def test_until_the_rules_come_nothing_can_be_clicked(browser, server):
+    page = browser.new_context().new_page()
+    page.route_web_socket("**", lambda socket: None)  # a server that says nothing
+    page.goto(server.address)
+    expect(page.locator("body")).to_have_class("waiting")
+    expect(page.get_by_test_id("add-rule")).to_be_hidden()
+    expect(page.get_by_test_id("name")).to_be_hidden()
+    page.context.close()

@@ -141,6 +141,34 @@ def test_each_piece_gets_a_bar_of_what_it_is_worth(page, server):
     expect(page.get_by_test_id("worth-start")).to_be_visible()
 
 
+def test_the_legend_of_the_bars_is_shown_with_the_table_alone(page, server):
+    server.worth(PIECES)
+    expect(page.get_by_test_id("worth-legend")).to_be_visible()
+    page.get_by_test_id("tab-changes").click()
+    expect(page.get_by_test_id("worth-legend")).to_be_hidden()
+    page.get_by_test_id("tab-table").click()
+    expect(page.get_by_test_id("worth-legend")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [470, 560, 600, 660])
+def test_tabs_and_tools_do_not_overlap(page, server, width):
+    page.set_viewport_size({"width": width, "height": 660})
+    server.change({"do": "set_enabled", "rule": 0, "enabled": False})
+    expect(page.get_by_test_id("tab-changes")).to_contain_text("1")
+    page.get_by_test_id("tab-text").click()
+    page.get_by_test_id("source").fill("# half a sen")
+    page.get_by_test_id("tab-table").click()
+    expect(page.get_by_test_id("tab-text")).to_contain_text("edited")
+    buttons = page.locator(".tab-bar button:visible")
+    boxes = [button.bounding_box() for button in buttons.all()]
+    assert len(boxes) >= 6  # four tabs, what each piece is worth, in words
+    for i, a in enumerate(boxes):
+        assert a["x"] + a["width"] <= width
+        for b in boxes[i + 1 :]:
+            beside = a["x"] + a["width"] <= b["x"] or b["x"] + b["width"] <= a["x"]
+            assert beside or abs(a["y"] - b["y"]) >= min(a["height"], b["height"])
+
+
 def test_bars_go_when_the_rules_change(page, server):
     server.worth(PIECES)
     expect(page.locator(".worth")).to_have_count(4)
