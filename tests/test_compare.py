@@ -35,6 +35,16 @@ def test_json_has_every_case_and_its_comparison_with_the_first(scenarios, capsys
     assert [results[at]["p_holm"] for at in (1, 3)] == holm([one.p_value for one in found])
 
 
+def test_scenarios_may_be_given_one_by_one(scenarios, capsys):
+    one_by_one = [word for name in scenarios for word in ("--scenario", name)]
+    outputs = []
+    for chosen in (one_by_one, ["--scenario", *scenarios]):
+        assert main(["compare", "evo8", *chosen, "--runs", "2", "--json"]) == 0
+        outputs.append(capsys.readouterr().out)
+    assert outputs[0] == outputs[1]
+    assert len(json.loads(outputs[0])["results"]) == 2
+
+
 def test_it_agrees_with_evaluate(scenarios, capsys):
     common = ["evo8", "--runs", "4", "--seed", "2", "--json", "--scenario", scenarios[0]]
     documents = []
@@ -72,6 +82,10 @@ def test_the_page_needs_nothing_else_and_escapes_names(scenarios, tmp_path, caps
     [
         (["evo8", "evo8"], "rules: expected each one once, got evo8 twice"),
         (["evo8", "--scenario", "paper", "paper"], "scenario: expected each one once"),
+        (
+            ["evo8", "--scenario", "paper", "--scenario", "paper"],
+            "scenario: expected each one once",
+        ),
         (["evo9"], "evo9: neither a file"),
         (["evo8", "--scenario", "moon"], "moon"),
         (["evo8", "--runs", "0"], "expected a whole number >= 1"),

@@ -23,9 +23,7 @@ def add_compare(verbs: Verbs) -> None:
     """Add compare."""
     compare = verbs.add_parser("compare", help="compare rule sets in several scenarios")
     compare.add_argument("rules", nargs="+", metavar="RULES", help=RULES_HELP)
-    compare.add_argument(
-        "--scenario", nargs="+", default=["paper"], metavar="S", help=SCENARIO_HELP
-    )
+    compare.add_argument("--scenario", nargs="+", action="extend", metavar="S", help=SCENARIO_HELP)
     compare.add_argument("--html", metavar="FILE", help="write a page with box plots")
     add_simulation_options(compare)
     compare.set_defaults(command=_compare)
@@ -37,13 +35,13 @@ def _compare(options: argparse.Namespace) -> int:
     from geswarm.rules import RuleSetError, load_rule_set
     from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
 
-    for what in ("rules", "scenario"):
-        given = getattr(options, what)
+    names = options.scenario or ["paper"]
+    for what, given in (("rules", options.rules), ("scenario", names)):
         if twice := [one for one in given if given.count(one) > 1]:
             raise UsageError(f"{what}: expected each one once, got {twice[0]} twice")
     try:
         rule_sets = {name: load_rule_set(name) for name in options.rules}
-        scenarios = [load_scenario(name).with_changes(name=name) for name in options.scenario]
+        scenarios = [load_scenario(name).with_changes(name=name) for name in names]
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     if not is_compiled():
