@@ -60,9 +60,9 @@ too long for a page is read and answered."""
 _ALONE = (
     "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
     "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'"
+    "frame-ancestors 'self'"
 )
-"""Policy of made files: no access to anything, the dashboard that serves them included."""
+"""Policy of made files: no access to anything, not to the dashboard that serves and shows them."""
 
 _construction = threading.Lock()
 _logger = logging.getLogger(__name__)
@@ -301,7 +301,7 @@ def static_response(folder: Path, path: str, host: str) -> Response:
         return _plain(HTTPStatus.NOT_FOUND, "not found")
     policy = (
         f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-        f"font-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
+        f"font-src 'self'; frame-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
         "base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
     )
     return _response(

@@ -14,7 +14,12 @@ export class Campaign {
     this.legend = h("div", { class: "chart-legend" });
     this.claims = h("table", { class: "claims" });
     identify(this.claims, "claims", "Claims of the paper");
-    this.node = h("div", { class: "campaign-look", hidden: true }, this.title, this.parts, this.chart.node, this.legend, this.claims);
+    this.frame = h("iframe", { sandbox: "allow-scripts" });
+    identify(this.frame, "report");
+    this.report = h("details", { class: "report", ontoggle: () => this.#load() }, h("summary", {}, "All figures and tables"), this.frame);
+    identify(this.report, "figures");
+    const parts = [this.title, this.parts, this.chart.node, this.legend, this.claims, this.report];
+    this.node = h("div", { class: "campaign-look", hidden: true }, ...parts);
     root.append(this.error, this.node);
   }
 
@@ -31,6 +36,16 @@ export class Campaign {
     this.claims.hidden = message.claims.length === 0;
     const heads = ["the paper", "found", "verdict"].map((text) => h("th", { scope: "col" }, text));
     this.claims.replaceChildren(h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...message.claims.map(claim)));
+    this.report.hidden = !message.reported;
+    this.address = message.reported ? reportAddress(message.name) : "";
+    this.frame.title = `Report of ${message.name}`;
+    this.#load();
+  }
+
+  /** The report is large: it is fetched when it is asked for, and once. */
+  #load() {
+    const address = this.report.open && this.address ? `${this.address}#figures` : "about:blank";
+    if (this.frame.getAttribute("src") !== address) this.frame.setAttribute("src", address);
   }
 
   #draw({ curves, levels }) {
@@ -42,6 +57,11 @@ export class Campaign {
     this.chart.show({ lines, levels: dashed, marks: [] });
     this.legend.replaceChildren(...lines.map((line) => h("span", {}, swatch(line), line.label)));
   }
+}
+
+/** @param {string} name Of a campaign. @returns {string} Where its report is. */
+export function reportAddress(name) {
+  return `files/report/${encodeURIComponent(name)}`;
 }
 
 /** Every line another colour; when there are no more, the same again, dashed. */

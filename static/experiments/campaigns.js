@@ -1,6 +1,7 @@
 /** The next campaign, and those that are kept: opened, continued, their reports read. */
 
 import { h, icon, identify } from "../common/dom.js";
+import { reportAddress } from "./campaign.js";
 import { duration } from "./duration.js";
 import { NumberField } from "./field.js";
 
@@ -93,7 +94,7 @@ class Item {
     this.details = h("div", { class: "detail" });
     this.state = h("span", { class: "detail" });
     this.goOn = h("button", { type: "button", class: "quiet", onclick: () => send({ type: "resume", name }) }, "Go on");
-    const address = `files/report/${encodeURIComponent(name)}`;
+    const address = reportAddress(name);
     this.report = h("a", { class: "quiet", href: address, target: "_blank", rel: "noopener" }, "Report");
     this.save = h("a", { class: "quiet", href: address, download: `${name}.html` }, icon("save"));
     const middle = h("div", { class: "campaign-middle" }, this.open, this.details);

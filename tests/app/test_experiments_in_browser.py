@@ -113,6 +113,10 @@ def test_a_campaign_is_opened_and_its_report_read_in_a_new_tab(page, tmp_path):
     expect(claims).to_have_count(14)
     expect(claims.first).to_contain_text("holds")
     expect(page.locator(".chart path.line")).to_have_count(10)
+    page.get_by_test_id("figures").locator("summary").click()
+    inside = page.frame_locator("[data-testid=report]")
+    for figure, number in {"2b": 12, "3a": 9, "3b": 9}.items():
+        expect(inside.locator(f"#figure-{figure} .boxlayer path.box")).to_have_count(number)
     with page.context.expect_page() as opened:
         page.get_by_test_id("report-1").click()
     report = opened.value
