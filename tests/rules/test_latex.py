@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 
-from geswarm.rules import Rule, RuleSet
+from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.rules.exports import format_latex
 from tests import strategies
 from tests.rules.test_exports import EVO8, HAND_CODED, NASTY
@@ -16,7 +16,8 @@ from tests.rules.test_exports import EVO8, HAND_CODED, NASTY
 LATEX_COMMANDS = set(re.findall(r"\w+", """
     documentclass usepackage begin end centering hline multicolumn textwidth raggedright textit
     mathcal mathit varepsilon leftarrow cdot caption quad ifdefined fi DeclareUnicodeCharacter
-    texttt footnotesize scriptsize itshape mbox setlength tabcolsep textbackslash textasciitilde
+    texttt renewcommand arraystretch footnotesize scriptsize itshape mbox setlength tabcolsep
+    textbackslash textasciitilde
     textasciicircum textless textgreater textbar textquotedbl textasciigrave
 """))  # fmt: skip
 
@@ -31,6 +32,8 @@ WORST = replace(
     ),
     name="100 %_of & #1 \\ {ä → 中}",
 )
+
+MANY = RuleSet(10 * EVO8.rules, name="Forty rules")
 
 
 def test_latex_has_the_form_of_the_papers_tables():
@@ -50,6 +53,14 @@ def test_latex_has_the_form_of_the_papers_tables():
         r"\hline",
     ]
     assert r"$\mathcal{P}_{1}$ & $\varepsilon$ & & \\" in rows
+    assert r"\begin{table}" in rows
+
+
+def test_more_rules_than_fit_on_a_page_go_on_on_the_next():
+    text = format_latex(MANY)
+    assert r"\usepackage{longtable}" in text
+    assert r"\begin{table}" not in text
+    assert all(f"$R_{{{number}}}$:" in text for number in range(1, 41))
 
 
 @given(strategies.documented_rule_sets)
@@ -66,12 +77,14 @@ def test_latex_stays_in_balance_whatever_the_comments(rule_set):
     assert "#" not in plain
     commands = set(re.findall(r"\\([a-zA-Z]+)", plain))
     assert commands <= LATEX_COMMANDS, commands - LATEX_COMMANDS
-    rows = [line for line in plain.split(r"\begin{tabular}")[1].splitlines() if " & " in line]
+    rows = [line for line in plain.split(r"\begin{document}")[1].splitlines() if " & " in line]
     assert all(row.count("&") in (1, 3) for row in rows)
 
 
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="pdflatex (texlive) is not installed")
-@pytest.mark.parametrize("rule_set", [EVO8, HAND_CODED, WORST, RuleSet()])
+@pytest.mark.parametrize(
+    "rule_set", [EVO8, HAND_CODED, load_preset("evolved"), WORST, MANY, RuleSet()]
+)
 def test_latex_compiles_and_fits_the_page(rule_set, tmp_path):
     (tmp_path / "table.tex").write_text(format_latex(rule_set), encoding="utf-8")
     command = ["pdflatex", "-halt-on-error", "-interaction=nonstopmode", "table.tex"]
@@ -79,4 +92,5 @@ def test_latex_compiles_and_fits_the_page(rule_set, tmp_path):
     said = done.stdout.decode(errors="replace")
     assert done.returncode == 0, said
     assert "Overfull" not in said
+    assert "too large for page" not in said
     assert "Missing character" not in said

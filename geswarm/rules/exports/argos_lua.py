@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from textwrap import wrap
 from typing import Protocol
 
 from geswarm.rules.elements import format_boolean, format_probability
@@ -17,6 +18,8 @@ from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING
 
 _TEMPLATE = Path(__file__).parent / "footbot.lua"
+_WIDTH = 94
+"""Characters of a line of a comment, without the dashes."""
 
 
 class FootBotParameters(Protocol):
@@ -150,4 +153,5 @@ def _deed(action: Action) -> str:
 def _comment(text: str, indent: str) -> Iterator[str]:
     """Free text as comment lines; the space keeps `[[` from opening a long comment."""
     for line in text.split("\n"):
-        yield f"{indent}-- {line}".rstrip()
+        for part in wrap(line, _WIDTH - len(indent)) or [""]:
+            yield f"{indent}-- {part}".rstrip()

@@ -1,6 +1,7 @@
 """A rule set as a LaTeX table in the form of the paper's Tables 1 and 2.
 
-The document compiles as it is; a paper takes what stands from `table` to `table`.
+The document compiles as it is; a paper takes what stands from `table` to `table`. Where there are
+more rules than fit on a page, the table is a `longtable`.
 """
 
 from __future__ import annotations
@@ -26,6 +27,11 @@ _COMMANDS = {
 _KNOWN = {*map(chr, range(0xA0, 0x180)), *"–—‘’“”‚„‹›†‡•…‰€™←↑→↓"} - {*"¸ĦħĸĿŀŉŦŧſ"}
 """Beyond ASCII, what pdfLaTeX's T1 and TS1 fonts have."""
 
+_COLUMNS = r"|l@{\quad}lll|"
+_STYLE = r"\footnotesize\setlength{\tabcolsep}{3pt}\renewcommand{\arraystretch}{1.1}"
+_LINES_PER_PAGE, _CHARACTERS_PER_LINE = 50, 70
+"""What is sure to fit; the lines that part the rules are counted as if they were text."""
+
 
 def format_latex(rule_set: RuleSet) -> str:
     """A complete document with the table; comments may hold any character."""
@@ -34,24 +40,44 @@ def format_latex(rule_set: RuleSet) -> str:
 
 def _document(rule_set: RuleSet) -> Iterator[str]:
     texts = [rule_set.name, rule_set.comment, *(rule.comment for rule in rule_set.rules)]
+    rows = [row for at, rule in enumerate(rule_set.rules, start=1) for row in _rule(at, rule)]
+    lines = len(rows) + sum(len(text) // _CHARACTERS_PER_LINE for text in texts)
+    caption = ": ".join(part for part in (rule_set.name, rule_set.comment) if part)
     yield r"\documentclass{article}"
     yield r"\usepackage[utf8]{inputenc}"
     yield r"\usepackage[T1]{fontenc}"
     yield r"\usepackage{textcomp}"
+    yield from [] if lines <= _LINES_PER_PAGE else [r"\usepackage{longtable}"]
     yield from _declarations("".join(texts))
     yield r"\begin{document}"
-    yield r"\begin{table}"
-    yield r"  \centering\footnotesize\setlength{\tabcolsep}{3pt}"
-    yield r"  \begin{tabular}{|l@{\quad}lll|}"
-    yield r"    \hline"
-    for number, rule in enumerate(rule_set.rules, start=1):
-        yield from _rule(number, rule)
-        yield r"    \hline"
-    yield r"  \end{tabular}"
-    caption = ": ".join(part for part in (rule_set.name, rule_set.comment) if part)
-    yield rf"  \caption{{{latex_text(caption or 'Rule set')}}}"
-    yield r"\end{table}"
+    yield from (_table if lines <= _LINES_PER_PAGE else _long_table)(
+        rows, rf"\caption{{{latex_text(caption or 'Rule set')}}}"
+    )
     yield r"\end{document}"
+
+
+def _table(rows: Sequence[str], caption: str) -> Iterator[str]:
+    yield r"\begin{table}"
+    yield rf"  \centering{_STYLE}"
+    yield rf"  \begin{{tabular}}{{{_COLUMNS}}}"
+    yield r"    \hline"
+    yield from (f"    {row}" for row in rows)
+    yield r"  \end{tabular}"
+    yield f"  {caption}"
+    yield r"\end{table}"
+
+
+def _long_table(rows: Sequence[str], caption: str) -> Iterator[str]:
+    """One that goes on from page to page, but not after the first line of a part of a rule."""
+    yield rf"{{{_STYLE}"
+    yield rf"  \begin{{longtable}}{{{_COLUMNS}}}"
+    yield rf"    {caption} \\"
+    yield r"    \hline \endfirsthead"
+    yield r"    \hline \endhead"
+    yield r"    \hline \endfoot"
+    yield r"    \endlastfoot"
+    yield from (f"    {row}*" if row.startswith("$") else f"    {row}" for row in rows)
+    yield r"  \end{longtable}}"
 
 
 def _declarations(text: str) -> Iterator[str]:
@@ -67,7 +93,7 @@ def _declarations(text: str) -> Iterator[str]:
 def _rule(number: int, rule: Rule) -> Iterator[str]:
     off = "" if rule.enabled else r"\textit{(off)} "
     comment = rf"\raggedright {off}{latex_text(rule.comment)}".rstrip()
-    yield rf"    $R_{{{number}}}$: & \multicolumn{{3}}{{p{{0.86\textwidth}}|}}{{{comment}}} \\"
+    yield rf"$R_{{{number}}}$: & \multicolumn{{3}}{{p{{0.86\textwidth}}|}}{{{comment}}} \\"
     holds = [
         f"$P_{{{_name(entry.name)}}} == {_word(format_boolean(entry.holds))}$"
         for entry in rule.preconditions
@@ -77,6 +103,7 @@ def _rule(number: int, rule: Rule) -> Iterator[str]:
     yield from _rows("B", number, _in_threes(executing or [r"$\varepsilon$"]))
     actions = [_action(entry) for entry in rule.actions]
     yield from _rows("A", number, actions or [[r"$\varepsilon$"]])
+    yield r"\hline"
 
 
 def _in_threes(cells: Sequence[str]) -> list[Sequence[str]]:
@@ -87,7 +114,7 @@ def _rows(letter: str, number: int, rows: Sequence[Sequence[str]]) -> Iterator[s
     for at, cells in enumerate(rows):
         first = rf"$\mathcal{{{letter}}}_{{{number}}}$" if at == 0 else ""
         padded = [*cells, *[""] * (3 - len(cells))]
-        yield rf"    {' & '.join([first, *padded])} \\"
+        yield rf"{' & '.join([first, *padded])} \\"
 
 
 def _action(action: Action) -> list[str]:
