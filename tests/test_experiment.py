@@ -2,13 +2,16 @@
 
 import threading
 from dataclasses import replace
+from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 import yaml
 from hypothesis import given
 
 from geswarm.experiment import (
     Composition,
+    Evaluation,
     EvolutionRun,
     ForagingFitness,
     InjectionError,
@@ -269,3 +272,16 @@ def test_a_run_can_be_read_while_it_is_written(tmp_path):
     other = EvolutionRun.read(tmp_path / "run")
     assert other.finished
     other.close()
+
+
+def test_notebooks_show_the_figures_of_an_evaluation():
+    evaluation = Evaluation(np.array([1, 2, 6]), np.array([0, 1, 1]))
+    rows = list(ElementTree.fromstring(evaluation._repr_html_()))
+    head, figures = ([cell.text for cell in row] for row in rows)
+    assert dict(zip(head, figures, strict=True)) == {
+        "runs": "3",
+        "mean": "3",
+        "sd": "2.6458",
+        "median": "2",
+        "lost, mean": "0.66667",
+    }

@@ -21,6 +21,8 @@ EXPORT_FORMS = (
     "mermaid", "dot", "svg", "argos-lua", "automode",
 )  # fmt: skip
 
+_JSON_SCHEMA = Path(__file__).parents[1] / "rules" / "exports" / "rule-set.schema.json"
+
 
 def add_rule_verbs(verbs: Verbs) -> None:
     """Add show, check, equal and export."""
@@ -39,7 +41,11 @@ def add_rule_verbs(verbs: Verbs) -> None:
     equal.add_argument("--json", action="store_true", help="one JSON object on stdout")
     equal.set_defaults(command=_equal)
 
-    export = verbs.add_parser("export", help="write a rule set in a form for use elsewhere")
+    export = verbs.add_parser(
+        "export",
+        help="write a rule set in a form for use elsewhere",
+        epilog=f"What --to json writes is described by {_JSON_SCHEMA} (JSON Schema).",
+    )
     export.add_argument("rules", metavar="RULES", help=RULES_HELP)
     export.add_argument("--to", dest="form", choices=EXPORT_FORMS, required=True)
     export.add_argument("-o", "--output", metavar="FILE", help="default: standard output")

@@ -244,8 +244,8 @@ class StateMachine:
         when = condition if condition == "always" else f"when {condition}"
         return "; ".join([f"{ends} {when}: {transition.rate}", *self.effects(transition)])
 
-    def _repr_svg_(self) -> str:
-        """How notebooks show it."""
+    def _repr_html_(self) -> str:
+        """How notebooks show it: as a picture."""
         from geswarm.rules.exports.svg import machine_svg
 
         return machine_svg(self)

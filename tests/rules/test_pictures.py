@@ -132,7 +132,7 @@ def test_the_picture_says_what_the_machine_says():
         rules = " ".join(f"R{number}" for number in transition.rules)
         assert rows[:2] == [str(transition.condition), f"{transition.rate} · {rules}"]
         assert rows[2:] == list(machine.effects(transition))
-    assert machine._repr_svg_() == EXPORTS["svg"](EVO8)
+    assert machine._repr_html_() == EXPORTS["svg"](EVO8)
 
 
 def test_the_brief_picture_leaves_text_out_where_there_is_too_much():

@@ -161,7 +161,7 @@ def test_no_rules_no_transitions():
     machine = StateMachine.of(RuleSet())
     assert [state.label for state in machine.states] == ["RANDOM_WALK"]
     assert machine.transitions == ()
-    assert "RANDOM_WALK" in machine._repr_svg_()
+    assert "RANDOM_WALK" in machine._repr_html_()
 
 
 def test_unknown_names_are_refused():

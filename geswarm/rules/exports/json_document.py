@@ -1,29 +1,20 @@
 """A rule set and its state machine as one JSON document.
 
-    {"schema": 1, "name", "comment", "origin", "rules",       as in `geswarm.rules.as_json`
-     "state_machine": {
-        "step_seconds": 0.1,
-        "states": [{"behaviour", "internal": {name: bool}, "initial": bool}],
-        "transitions": [{"source", "target": indices into states,
-                         "condition": [{percept: bool}, ...]   any of them, all of it
-                         "when": the same in words,
-                         "probability": per step in which the condition holds,
-                         "mean_wait": seconds,
-                         "effects": [internal states that are set for this step],
-                         "restarts": bool                      the behaviour begins afresh
-                         "rules": [numbers from 1]}]}}
-
+What it holds is described by `rule-set.schema.json` beside this module (JSON Schema 2020-12).
 Reading such a document takes the rules; the state machine follows from them.
 """
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 from geswarm.rules.as_json import SCHEMA, Json, rule_set_to_json
 from geswarm.rules.english import STEP_SECONDS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine, Transition
+
+SCHEMA_FILE = Path(__file__).parent / "rule-set.schema.json"
 
 
 def format_json_document(rule_set: RuleSet) -> str:
