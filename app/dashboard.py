@@ -41,6 +41,7 @@ _PANEL_SECONDS = 0.1  # numbers need not change faster
 
 _PAGES_WIDTH = 600
 _CONTROLS_WIDTH = 320
+_BRAND, _BRAND_IN_THE_DARK = (15, 98, 214), (59, 130, 246)
 _FRAME = (
     '<iframe src="/{page}/{page}.html?theme={theme}" title="{title}" '
     'style="display:block;width:100%;height:calc(100vh - 72px);border:0"></iframe>'
@@ -96,7 +97,10 @@ class Dashboard:
     def _build(self, dark: bool) -> None:
         gui = self.server.gui
         gui.configure_theme(
-            show_logo=False, show_share_button=False, brand_color=(15, 98, 214), dark_mode=dark
+            show_logo=False,
+            show_share_button=False,
+            brand_color=_BRAND_IN_THE_DARK if dark else _BRAND,
+            dark_mode=dark,
         )
         self.stage.build(self.server)
         with gui.add_folder("Swarm"):

@@ -94,7 +94,7 @@ class ScenarioPanel:
         self._problem = gui.add_html("", visible=False)
         for title, needs_reset in (
             ("acts at once", False),
-            ("reset needed: acts through one", True),
+            ("starts the run again", True),
         ):
             gui.add_html(
                 f'<div style="padding:.3em .9em 0;font-size:.75em;opacity:.65">{title}</div>'

@@ -8,7 +8,7 @@ from html import escape
 import viser
 
 from .. import palette
-from ..scene.overlays import RANGE_COLOURS, sensing_ranges
+from ..scene.overlays import HEAT, RANGE_COLOURS, sensing_ranges
 from ..state.session import Session
 from ..state.trace import TRAIL_SECONDS
 from ..state.view import Whose
@@ -28,14 +28,15 @@ class ShowHandles:
 
 
 class ShowPanel:
-    """Toggles, and what the circles mean."""
+    """Toggles, and what the colours mean."""
 
     handles: ShowHandles
+    legend: viser.GuiHtmlHandle
 
     def __init__(self, session: Session) -> None:
         self.session = session
         self._mirror = Mirror()
-        self._legend = ""
+        self._shown = ""
 
     def build(self, gui: viser.GuiApi) -> None:
         """Make the widgets in the present container."""
@@ -47,7 +48,7 @@ class ShowPanel:
             "Visit heat map", shown.visits, hint="How often each place was visited in this run"
         )
         ranges = gui.add_dropdown("Sensing ranges", tuple(_WHOSE), initial_value="none")
-        self._text = gui.add_html("", visible=False)
+        self.legend = gui.add_html("", visible=False)
         self.handles = ShowHandles(trails, visits, ranges)
 
         @trails.on_update
@@ -66,22 +67,30 @@ class ShowPanel:
             post(lambda session: setattr(session.shown, "ranges", whose))
 
     def sync(self) -> None:
-        """Show what is chosen, and the legend of the circles."""
+        """Show what is chosen, and the legends of what is drawn."""
         self._mirror.show(self.handles.trails, self.session.shown.trails)
         self._mirror.show(self.handles.visits, self.session.shown.visits)
         shown = self.session.shown.ranges
         self._mirror.show(self.handles.ranges, _WORDS[shown])
-        text = (
-            ""
-            if shown == "none"
-            else legend_html(
+        text = heat_html() if self.session.shown.visits else ""
+        if shown != "none":
+            text += legend_html(
                 sensing_ranges(self.session.scenario),
                 hint=shown == "selected" and self.session.selected is None,
             )
-        )
-        if text != self._legend:
-            self._legend = self._text.content = text
-            self._text.visible = bool(text)
+        if text != self._shown:
+            self._shown = self.legend.content = text
+            self.legend.visible = bool(text)
+
+
+def heat_html() -> str:
+    """The colours of the visit heat map, as HTML."""
+    colours = ", ".join(palette.css(colour) for colour in HEAT)
+    return (
+        '<div style="display:flex;align-items:center;gap:.5em;padding:.1em .9em .4em;'
+        'font-size:.85em">visited rarely<span style="flex:1;height:.6em;border-radius:.3em;'
+        f'background:linear-gradient(90deg, {colours})"></span>often</div>'
+    )
 
 
 def legend_html(ranges: dict[str, float], hint: bool) -> str:

@@ -31,7 +31,8 @@ RANGE_COLOURS: dict[str, Colour] = {
 _LINEAR = np.array([palette.linear((c, c, c))[0] for c in range(256)], dtype=np.uint8)
 """What viser's lines take for each sRGB value."""
 
-_HEAT = np.array(((255, 232, 140), (252, 152, 60), (226, 62, 40), (120, 8, 50)), dtype=float)
+HEAT: tuple[Colour, ...] = ((255, 232, 140), (252, 152, 60), (226, 62, 40), (120, 8, 50))
+"""Colours of the heat map, from places that are visited rarely to those visited often."""
 
 
 def sensing_ranges(scenario: Scenario) -> dict[str, float]:
@@ -199,8 +200,9 @@ def heat_map(visits: npt.NDArray[np.int64]) -> npt.NDArray[np.uint8]:
     heat = np.clip(soft / np.percentile(busy, 99.0), 0.0, 1.0) if busy.size else soft
     heat = heat**0.7  # rare visits are seen, too
     picture = np.empty((*heat.shape, 4), dtype=np.uint8)
-    at = heat * (len(_HEAT) - 1)
+    colours = np.array(HEAT, dtype=float)
+    at = heat * (len(colours) - 1)
     for channel in range(3):
-        picture[..., channel] = np.interp(at, range(len(_HEAT)), _HEAT[:, channel])
+        picture[..., channel] = np.interp(at, range(len(colours)), colours[:, channel])
     picture[..., 3] = 205.0 * np.clip(1.5 * heat, 0.0, 1.0)
     return picture

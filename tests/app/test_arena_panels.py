@@ -9,8 +9,12 @@ import viser
 from geswarm.app.panels.inspector_panel import compass, last_rule_html, robot_html
 from geswarm.app.panels.record_panel import status
 from geswarm.app.panels.scenario_panel import VALUES
+from geswarm.app.panels.show_panel import ShowPanel
+from geswarm.app.scene.overlays import heat_map
 from geswarm.app.scene.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
 from geswarm.app.scene.stage import beside
+from geswarm.app.state.evolution import EvolutionThread
+from geswarm.app.state.session import Session
 from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.sim import NEEDS_RESET, World, load_scenario
 
@@ -95,3 +99,21 @@ def test_a_recording_that_fails_is_told(server, monkeypatch):
     recorder.stop()
     recorder.join()
     assert "ZeroDivisionError" in status(recorder)
+
+
+def test_the_colours_of_the_heat_map_are_explained_while_it_is_shown(server):
+    session = Session(PAPER, load_preset("evo8"), EvolutionThread(workers=1))
+    panel = ShowPanel(session)
+    panel.build(server.gui)
+    panel.sync()
+    assert not panel.legend.visible
+    session.shown.visits = True
+    panel.sync()
+    assert panel.legend.visible
+    often = heat_map(np.full((8, 8), 9))[4, 4, :3]
+    assert "#{:02x}{:02x}{:02x}".format(*often) in panel.legend.content
+    session.shown.ranges = "all"
+    panel.sync()
+    assert "visited rarely" in panel.legend.content
+    assert "grip reach" in panel.legend.content
+    session.close()
