@@ -91,7 +91,7 @@ export class Verdict {
     const words = {
       better: `${by} vs ${name}`,
       worse: `${by} vs ${name}`,
-      even: `no clear difference to ${name} (${by})`,
+      even: `${by} vs ${name}, no clear difference`,
       same: `the same as ${name}`,
     }[judgement];
     this.answer.className = `answer ${judgement}`;
