@@ -116,7 +116,7 @@ def is_expected(raw: str | bytes, widgets: Mapping[str, Any]) -> bool:
         return False
     try:
         message = _DECODER.decode(raw)
-    except (msgspec.DecodeError, RecursionError):
+    except (ValueError, RecursionError):  # not MessagePack, not text in UTF-8, not as expected
         return False
     if isinstance(message, GuiUpdateMessage):
         widget = widgets.get(message.uuid)

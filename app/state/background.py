@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
 Question = TypeVar("Question")
 Stop = Callable[[], bool]
+
+logger = logging.getLogger(__name__)
 
 
 class Newest(Generic[Question]):
@@ -54,7 +57,10 @@ class Newest(Generic[Question]):
                     return
                 question = done = self._question
             if question is not None:
-                self._answer(question, self._stop_for(question))
+                try:
+                    self._answer(question, self._stop_for(question))
+                except Exception:  # one bad question must not end the answers to the next
+                    logger.exception("%s failed", self._name)
 
     def _stop_for(self, question: Question) -> Stop:
         return lambda: self._closed or self._question is not question

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -124,7 +125,7 @@ class CampaignFolder:
             claims = _claims(directory / "data" / "claims.csv") if reported else []
             levels = _levels(campaign.data_of("performance"))
             parts = tuple(campaign.parts())
-        except (OSError, ValueError, KeyError) as error:
+        except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
             raise CampaignError(f"{directory}: cannot be read: {error}") from error
         return CampaignLook(name, campaign.plan, parts, curves, levels, tuple(claims), reported)
 
@@ -137,6 +138,8 @@ class CampaignFolder:
         if known != stamp:
             with path.open(newline="", encoding="utf-8") as file:
                 curve = tuple(float(row["best_so_far"]) for row in csv.DictReader(file))
+            if not all(map(math.isfinite, curve)):
+                raise ValueError(f"{path.name}: expected finite numbers")
             self._curves[path] = stamp, curve
         return curve
 

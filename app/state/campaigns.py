@@ -180,6 +180,12 @@ class Campaigns:
 
     def _refresh(self, _question: object, stop: Stop) -> None:
         began = time.monotonic()
+        try:
+            self._find_out(stop)
+        finally:
+            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)
+
+    def _find_out(self, stop: Stop) -> None:
         self.kept = self.folder.scan()
         look, problem = None, ""
         if (shown := self.shown) is not None:
@@ -188,10 +194,8 @@ class Campaigns:
             except CampaignError as error:
                 problem = str(error)
         self.look, self.problem = look, problem
-        took = time.monotonic() - began
         if self.rate is None and not (self.thread.active or self._evolution.active):
             self.rate = self._measured_rate(stop)
-        self._rest_until = time.monotonic() + 2 * took
 
     def _measured_rate(self, stop: Stop) -> float | None:
         scenario, rule_sets = load_scenario("paper"), [load_preset("evo8")]

@@ -192,6 +192,12 @@ class Runs:
 
     def _refresh(self, _question: object, stop: Stop) -> None:
         began = time.monotonic()
+        try:
+            self._find_out(stop)
+        finally:
+            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)
+
+    def _find_out(self, stop: Stop) -> None:
         evolution, directory = self.evolution, self.shown
         live = evolution.run
         if live is not None and live.directory != directory:
@@ -199,13 +205,11 @@ class Runs:
         self._lens.turn_to(directory, live)
         self.look, self.problem = self._lens.look, self._lens.problem
         self.kept = self._folder.scan(evolution.directory if evolution.active else None)
-        took = time.monotonic() - began
         if self.look is not None and live is None:
             self._find_references(
                 self.look.config.scenario,
                 lambda: stop() or evolution.active or self.shown != directory,
             )
-        self._rest_until = time.monotonic() + 2 * took
 
     def _find_references(self, scenario: Scenario, stop: Stop) -> None:
         """What the presets collect where the run looked at took place."""

@@ -250,7 +250,9 @@ def test_a_campaign_is_looked_at(talker, tmp_path):
         ("data/claims.csv", "where,paper\n"),
         ("data/claims.csv", "where,paper,found,verdict\na,b,c,perhaps\n"),
         ("data/performance.csv", "rules,collected\nEVO 8,many\n"),
+        ("data/performance.csv", "rules,collected\nEVO 8\n"),
         ("evolution/seed-1/history.csv", "generation,best_so_far\n1,none\n"),
+        ("evolution/seed-1/history.csv", "generation,best_so_far\n1,inf\n"),
     ],
 )
 def test_a_damaged_campaign_says_so(tmp_path, file, text):

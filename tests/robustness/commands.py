@@ -17,10 +17,11 @@ from tests.robustness.doors import Door, RefusedError
 
 QUICK = "duration: 1\n"
 VALUES = (
-    "evo8", "hand-coded", "-", "mine.rules", "quick.yaml", "paper", "nowhere", "", ".", "/dev/null/x", "..",
+    "evo8", "hand-coded", "-", "mine.rules", "quick.yaml", "paper", "nowhere", "", ".", "..",
     "\udcff", "a\0b", "x" * 300, "0", "1", "2", "-1", "1e3", "nan", "9" * 30, "9" * 5000, "--",
-    "--json", "[/x]", "text", "yaml", "json", "dot", "svg", "latex", "argos-lua", "automode",
-    "modern", "out", "out/mine",
+    "--json", "/dev/null/x", "[/x]", "text", "yaml", "json", "dot", "svg", "latex", "argos-lua",
+    "automode", "modern",
+    "out", "out/mine",
 )  # fmt: skip
 GESWARM = {
     "evaluate": ("--scenario", "--seed", "--json"),

@@ -9,13 +9,14 @@ from contextlib import contextmanager
 import pytest
 from hypothesis import HealthCheck, given, seed, settings
 
-from tests.robustness import commands, doors, pages, runs
+from tests.robustness import commands, doors, more_pages, pages, runs
 
 SMALL = 60
 LARGE = int(os.environ.get("GESWARM_FUZZ_INPUTS", "6000"))
 SEED = int(os.environ.get("GESWARM_FUZZ_SEED", "0"))
 PATIENCE = 120  # s for one input: only what hangs takes so long
-DOORS = {door.name: door for kind in (doors, runs, commands, pages) for door in kind.doors()}
+KINDS = (doors, runs, commands, pages, more_pages)
+DOORS = {door.name: door for kind in KINDS for door in kind.doors()}
 
 
 @contextmanager
