@@ -50,10 +50,11 @@ from geswarm.rules import (
     Rule,
     RuleSet,
     format_text,
+    format_yaml,
     parse_text,
     plain_yaml,
-    save_rule_set,
 )
+from geswarm.rules.library import write_whole
 from geswarm.sim import Scenario, parse_scenario
 
 __all__ = [
@@ -320,7 +321,8 @@ class EvolutionRun:
     def _save_best(self) -> None:
         if self.best is not None:
             try:
-                save_rule_set(self.best, self.directory / "best.yaml")
+                path = self.directory / "best.yaml"
+                write_whole(format_yaml(self.best), path, through_links=False)
             except OSError as error:
                 raise StoreError(f"{self.directory}: cannot write best.yaml: {error}") from error
 

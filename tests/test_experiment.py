@@ -111,6 +111,25 @@ def test_a_stopped_run_goes_on_exactly(tmp_path, generations_before):
     assert (part.directory / "best.yaml").exists()
 
 
+def test_links_in_a_run_of_somebody_else_are_not_followed(tmp_path):
+    directory, outside = tmp_path / "run", tmp_path / "outside"
+    run = EvolutionRun.create(CONFIG, directory)
+    run.run(stop=lambda: len(run.history) == 1)
+    run.close()
+    outside.write_text("kept")
+    for name in ("best.yaml", "config.yaml", "history.csv"):
+        (directory / name).unlink()
+        for link in (name, f"{name}.part", f".{name}.part"):
+            (directory / link).symlink_to(outside)
+    again = EvolutionRun.resume(directory)
+    again.run()
+    again.close()
+    assert outside.read_text() == "kept"
+    evolved(tmp_path / "whole")
+    assert rows(directory) == rows(tmp_path / "whole")
+    assert load_rule_set(str(directory / "best.yaml")).rules
+
+
 def test_a_stop_within_a_generation_loses_only_that_one(tmp_path):
     calls = 0
 

@@ -291,6 +291,7 @@ def _write_atomically(path: Path, text: str) -> None:
     """Readers see the old file or the new one, never a part."""
     partial = path.with_name(path.name + ".part")
     try:
+        partial.unlink(missing_ok=True)  # of somebody else's run it may be a link to anywhere
         partial.write_text(text, encoding="utf-8", newline="")
         partial.replace(path)
     except BaseException:

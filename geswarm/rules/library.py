@@ -104,20 +104,28 @@ def save_rule_set(rule_set: RuleSet, path: str | Path) -> None:
     write_whole(forms.get(Path(path).suffix, format_text)(rule_set), path)
 
 
-def write_whole(text: str, path: str | Path) -> None:
+def write_whole(text: str, path: str | Path, through_links: bool = True) -> None:
     """Replace a file as a whole: a failure leaves the old one as it was.
 
     What is no plain file, such as a pipe or a link, is written to instead of replaced.
+
+    Args:
+        text: What will be in it.
+        path: The file.
+        through_links: False in directories that may come from somebody else, whose links may lead
+            anywhere: they are replaced too.
 
     Raises:
         OSError: The file cannot be written.
     """
     path = Path(path)
-    if path.is_symlink() or (path.exists() and not path.is_file()):
+    link = path.is_symlink()
+    if (link and through_links) or (not link and path.exists() and not path.is_file()):
         path.write_text(text, encoding="utf-8")
         return
     draft = path.with_name(f".{path.name}.part")
     try:
+        draft.unlink(missing_ok=True)  # it may be a link
         draft.write_text(text, encoding="utf-8")
         draft.replace(path)
     except OSError:

@@ -219,7 +219,7 @@ class Campaign:
         path = self.directory / name
         try:
             path.parent.mkdir(exist_ok=True)
-            write_whole(text, path)
+            write_whole(text, path, through_links=False)
         except OSError as error:
             raise CampaignError(f"{path}: cannot be written: {_reason(error)}") from error
 
