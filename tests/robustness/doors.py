@@ -63,6 +63,7 @@ class Door:
         allowed: What it may raise.
         raw: Makes an input from a random number generator, knowing nothing or an example.
         structured: Makes inputs of about the right shape.
+        share: Of the inputs of the long run; less where each takes long.
     """
 
     name: str
@@ -70,6 +71,7 @@ class Door:
     allowed: tuple[type[Exception], ...]
     raw: Callable[[Any], Any]
     structured: st.SearchStrategy[Any] = field(repr=False)
+    share: float = 1.0
 
 
 def text_inputs(*examples):

@@ -223,14 +223,14 @@ def doors():
     any_messages = st.lists(mutations.json_objects(keys).map(json.dumps), max_size=3)
     return (
         Door("messages of the evolution page", lambda raw: talk(EvolutionPage, raw),
-             (RefusedError,), messages(_EVOLUTION), any_messages),
+             (RefusedError,), messages(_EVOLUTION), any_messages, share=0.25),
         Door("messages of the experiments page", lambda raw: talk(ExperimentsPage, raw),
-             (RefusedError,), messages(_EXPERIMENTS), any_messages),
+             (RefusedError,), messages(_EXPERIMENTS), any_messages, share=0.25),
         Door("messages to viser", to_viser, (RefusedError,), packed,
              mutations.json_objects(("type", "uuid", "updates", "name")).map(pack)
              | st.binary(max_size=60)),
         Door("journal", journal_file, (RefusedError,),
              lambda rng: mutations.mutated_bytes(rng, example_journal()), st.binary(max_size=200)),
         Door("campaign", campaign_directory, (CampaignError, StoreError), campaign_files,
-             st.binary(max_size=60).map(lambda data: {"campaign.yaml": data})),
+             st.binary(max_size=60).map(lambda data: {"campaign.yaml": data}), share=0.25),
     )  # fmt: skip
