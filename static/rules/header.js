@@ -78,7 +78,7 @@ export class Header {
   #files() {
     const file = h("input", {
       type: "file",
-      accept: ".yaml,.yml,.rules,.txt",
+      accept: ".yaml,.yml,.rules,.txt,.json",
       hidden: true,
       "aria-label": "Rule set file",
       "data-testid": "file",

@@ -56,7 +56,7 @@ def test_graphviz_draws_it():
     subprocess.run(["dot", "-Tsvg"], input=EXPORTS["dot"](NASTY), text=True, check=True)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @pytest.mark.parametrize("form", [FULL, BRIEF])
 @given(rule_set=strategies.plain_rule_sets())
 def test_nothing_in_a_picture_covers_anything_else(form, rule_set):
@@ -80,7 +80,7 @@ def test_nothing_in_a_picture_covers_anything_else(form, rule_set):
     assert sorted(drawn) == list(range(len(machine.transitions)))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(rule_set=strategies.plain_rule_sets())
 def test_arrows_go_from_border_to_border_and_through_no_other_state(rule_set):
     machine = StateMachine.of(rule_set)

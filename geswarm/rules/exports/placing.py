@@ -19,7 +19,7 @@ FAULT = 1000.0
 
 _ROUNDS, _TRIES = 4, 12
 _UPON = 16.0  # against a label that interrupts its own arrow
-_GAP, _STATE_GAP, _CURVE_GAP = 6.0, 14.0, 4.0  # between labels, to states, to other arrows
+_GAP, _STATE_GAP, _CURVE_GAP = 10.0, 14.0, 4.0  # between labels, to states, to other arrows
 _CLOSE = 12.0  # to other arrows: not covered, but to be taken for theirs
 _ALONG = (20, 17, 23, 14, 26, 11, 29)  # points of a path: its middle first
 _FURTHER_OUT = (0.0, 22.0, 50.0, 90.0)
@@ -64,8 +64,9 @@ class _Ground:
         grazed = 0 if place.upon else np.count_nonzero((distance < 2) & own)
         away = max(0.0, float(distance[own].min()))
         nearest = float(distance[foreign].min(initial=np.inf))
+        mistaken = away >= max(nearest, 1.0)  # for the label of another arrow
         detour = 0.4 * away + 2.0 * max(0.0, away + _CLOSE - nearest) + 10.0 * grazed
-        return FAULT * (covered + hidden) + detour + place.detour
+        return FAULT * (covered + hidden + mistaken) + detour + place.detour
 
 
 def clearest(candidates: Iterable[Path], others: Sequence[Path], states: Sequence[Box]) -> Path:
