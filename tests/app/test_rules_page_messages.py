@@ -3,6 +3,7 @@
 import pytest
 
 from geswarm.rules import Rule, RuleSet, load_preset, parse_yaml
+from geswarm.rules.exports import EXPORTS
 from tests.app.rules_browser import choose, expect, page_fixture, sees_edit, server_fixture
 from tests.app.rules_server import RulesServer
 
@@ -18,6 +19,19 @@ def test_a_preset_and_a_file_are_loaded(page, server):
     page.get_by_test_id("file").set_input_files(file)
     expect(page.get_by_test_id("name")).to_have_value("Mine")
     expect(page.get_by_test_id("rule-2")).to_have_count(0)
+
+
+@pytest.mark.parametrize("form", ["yaml", "text", "json"])
+def test_every_form_that_carries_rules_is_loaded(page, server, form):
+    """The file dialog offers it, too."""
+    suffix = {"text": ".rules"}.get(form, f".{form}")
+    chooser = page.get_by_test_id("file")
+    assert suffix in chooser.get_attribute("accept").split(",")
+    text = EXPORTS[form](load_preset("evolved"))
+    file = {"name": f"mine{suffix}", "mimeType": "text/plain", "buffer": text.encode()}
+    chooser.set_input_files(file)
+    expect(page.get_by_test_id("name")).to_have_value("Evolved")
+    assert server.document.rule_set.rules == load_preset("evolved").rules
 
 
 def test_a_failed_load_shows_every_reason_until_dismissed(page, server):

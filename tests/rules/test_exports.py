@@ -4,10 +4,13 @@ import re
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geswarm.fitness import foraging_grammar
+from geswarm.ge import Mapper
 from geswarm.rules import (
     BehaviourChange,
     Rule,
@@ -51,6 +54,19 @@ def test_what_carries_enough_comes_back(rule_set):
     for form in ("yaml", "text", "json"):
         assert read_rule_set(EXPORTS[form](rule_set)) == rule_set
     assert parse_json(format_json(rule_set)) == rule_set
+
+
+def test_forty_messy_rules_come_back_from_json():
+    """Their state machine has hundreds of transitions, and files may be only so long."""
+    mapper, rng = Mapper(foraging_grammar()), np.random.default_rng(3)
+    rules = []
+    while len(rules) < 40:
+        phenotype = mapper.map(rng.integers(0, 2**31, 200).tolist()).phenotype
+        rules += parse_text(phenotype).rules if phenotype else ()
+    rule_set = RuleSet(tuple(rules[:40]))
+    document = EXPORTS["json"](rule_set)
+    assert len(StateMachine.of(rule_set).transitions) > 200
+    assert read_rule_set(document) == rule_set
 
 
 def test_json_files_are_saved_and_read_like_the_others(tmp_path):

@@ -18,17 +18,28 @@ SCHEMA_FILE = Path(__file__).parent / "rule-set.schema.json"
 
 
 def format_json_document(rule_set: RuleSet) -> str:
-    """Rules and state machine as JSON text.
+    """Rules and state machine as JSON text, with a line for each state and transition.
 
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
-    document = {
-        "schema": SCHEMA,
-        **rule_set_to_json(rule_set),
-        "state_machine": machine_to_json(StateMachine.of(rule_set)),
-    }
-    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    rules = {"schema": SCHEMA, **rule_set_to_json(rule_set)}
+    head = json.dumps(rules, indent=2, ensure_ascii=False).removesuffix("\n}")
+    machine = machine_to_json(StateMachine.of(rule_set))
+    parts = [
+        f'"step_seconds": {machine["step_seconds"]}',
+        *(f'"{key}": {_lines(machine[key])}' for key in ("states", "transitions")),
+    ]
+    body = ",\n    ".join(parts)
+    return f'{head},\n  "state_machine": {{\n    {body}\n  }}\n}}\n'
+
+
+def _lines(values: list[Json]) -> str:
+    """A list with one value on each line."""
+    if not values:
+        return "[]"
+    lines = ",\n      ".join(json.dumps(value) for value in values)
+    return f"[\n      {lines}\n    ]"
 
 
 def machine_to_json(machine: StateMachine) -> dict[str, Json]:
