@@ -3,7 +3,8 @@
 AutoMoDe's robots see the colour of the floor and carry nothing. The nest is white and the source
 black, as in AutoMoDe's own foraging missions, all else grey. `HAS_OBJECT` is taken as false, and
 what needs it true is left out. On each colour, the transitions of a state are drawn in random order
-until one happens; the probabilities are those that come to the same as the rules.
+until one happens; the probabilities are those that come to the same as the rules. AutoMoDe looks at
+a state's transitions from the second step in it on.
 """
 
 from __future__ import annotations
