@@ -11,7 +11,9 @@ from typing import TypeAlias
 Verbs: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where each group of verbs adds its own."""
 
-RULES_HELP = "a preset (hand-coded, evo8, evolved), a YAML, text or JSON file, or - for standard input"
+RULES_HELP = (
+    "a preset (hand-coded, evo8, evolved), a YAML, text or JSON file, or - for standard input"
+)
 SCENARIO_HELP = "a scenario (paper, ideal-sensing, scalability-5, ...) or a YAML file"
 
 
