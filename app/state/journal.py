@@ -122,8 +122,13 @@ def _open_own(path: Path) -> sqlite3.Connection:
     path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     path.touch(mode=0o600)
     connection = sqlite3.connect(path, check_same_thread=False)
-    connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-    connection.execute(_TABLE)
+    try:
+        connection.execute("PRAGMA locking_mode = EXCLUSIVE")
+        connection.execute(_TABLE)
+    except sqlite3.Error:  # the disk is full: it is tried again with the next change
+        connection.close()
+        _remove(path)
+        raise
     return connection
 
 

@@ -11,6 +11,7 @@ import pytest
 from markdown_it import MarkdownIt  # comes with rich
 
 from geswarm.analysis.page import figure_html, page, table_html
+from geswarm.analysis.reproduction import Campaign
 from geswarm.app.dashboard import open_dashboard
 from geswarm.app.panels.evolution_panel import status_html
 from geswarm.app.panels.inspector_panel import robot_html
@@ -18,6 +19,8 @@ from geswarm.app.panels.swarm_panel import score_html
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.journal import Journal, journal_directory
 from geswarm.app.state.session import Session
+from geswarm.experiment import EvolutionRun, RunConfig
+from geswarm.ge import Settings
 from geswarm.rules import RuleSet, format_yaml, parse_text
 from geswarm.rules.exports import format_html, format_markdown, format_svg
 from geswarm.sim import load_scenario
@@ -167,3 +170,45 @@ def type_everywhere(table, second, tmp_path):
     table.get_by_test_id("tab-table").click()
     second.get_by_test_id("bring-back").click()
     second.get_by_test_id("unsaved").wait_for(state="detached")
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_names_of_runs_and_campaigns_do_not_run_in_a_browser(browser, tmp_path, monkeypatch):
+    """What the other pages list may come from anybody's disk."""
+    monkeypatch.chdir(tmp_path)
+    name = "<img src=x onerror=top.ran=1>"
+    scenario = load_scenario("paper").with_changes(name=IMAGE, duration=10.0)
+    run = EvolutionRun.create(
+        RunConfig(scenario, Settings(population=4, generations=2, evaluations=1)),
+        tmp_path / "runs" / name,
+    )
+    run.run()
+    run.close()
+    Campaign.at(tmp_path / "runs" / f"{name}-campaign", runs=1, generations=1, evaluations=2)
+    for broken in ("run.db", "campaign.yaml"):
+        (tmp_path / "runs" / f"{name}-{broken}").mkdir()
+        (tmp_path / "runs" / f"{name}-{broken}" / broken).write_text(EVIL)
+    dashboard = open_dashboard(scenario, evil_rules(), "127.0.0.1", 0)
+    loop = threading.Thread(target=dashboard.run)
+    loop.start()
+    context = browser.new_context(viewport={"width": 700, "height": 1500})
+    try:
+        pages = [context.new_page() for _ in range(2)]
+        for page_, kind in zip(pages, ("evolution", "experiments"), strict=True):
+            page_.set_default_timeout(60_000)
+            page_.goto(f"{dashboard.address}/{kind}/{kind}.html")
+        evolution, experiments = pages
+        evolution.get_by_text(name).first.wait_for(state="attached")
+        experiments.get_by_text(f"{name}-campaign").first.wait_for(state="attached")
+        (tmp_path / f"{name}.yaml").write_text(format_yaml(evil_rules()))
+        experiments.locator("input[type=file]").set_input_files(tmp_path / f"{name}.yaml")
+        experiments.get_by_text(f"file {name}.yaml").first.wait_for(state="attached")
+        for page_ in pages:
+            assert page_.evaluate("window.ran") is None
+            assert page_.locator("img[src=x], [onerror], [onload]").count() == 0
+    finally:
+        context.close()
+        dashboard.stop()
+        loop.join(60)
+        dashboard.close()

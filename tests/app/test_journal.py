@@ -5,6 +5,7 @@ import sqlite3
 import stat
 import time
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from geswarm.app.state.journal import Journal, journal_directory
 from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
+from tests.robustness.test_faults import fill, small_disk
 
 EVO8, HAND_CODED = load_preset("evo8"), load_preset("hand-coded")
 R1_OFF = {"do": "set_enabled", "rule": 0, "enabled": False}
@@ -132,6 +134,24 @@ def test_a_place_that_cannot_be_written_is_a_problem_and_no_failure(tmp_path):
     assert "file/journal" in journal.problem
     assert "\n" not in journal.problem
     journal.close()
+
+
+@pytest.mark.parametrize("earlier", [False, True])
+def test_a_disk_that_was_full_is_written_again(tmp_path, earlier):
+    with small_disk(tmp_path / "disk") as disk:
+        journal = Journal(disk / "journal")
+        if earlier:
+            journal.keep(HAND_CODED)
+            wait_until(lambda: any(written(disk / "journal")))
+        fill(disk / "room")
+        journal.keep(replace(EVO8, name="x" * 9000))
+        wait_until(lambda: "full" in journal.problem)
+        (disk / "room").unlink()
+        journal.keep(EVO8)
+        wait_until(lambda: any("EVO 8" in (text or "") for text in written(disk / "journal")))
+        wait_until(lambda: not journal.problem)
+        journal.close()
+        assert not list((disk / "journal").iterdir())
 
 
 def test_without_a_directory_nothing_is_kept():

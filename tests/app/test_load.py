@@ -96,6 +96,7 @@ def test_ten_people_edit_and_play(dashboard, browser, tmp_path, monkeypatch):
     watch = Watch(dashboard, monkeypatch)
     loop = runs(dashboard)
     page = browser.new_page(viewport={"width": 1400, "height": 800})
+    page.set_default_timeout(180_000)  # on a busy machine
     page.goto(dashboard.address)
     page.frame_locator("iframe[title='Rule table']").get_by_test_id("rule-4").wait_for()
     command = [sys.executable, CLIENTS, dashboard.address, str(60 * MINUTES)]
@@ -129,6 +130,7 @@ def test_evolution_with_the_dashboard_open(dashboard, browser, monkeypatch):
     watch = Watch(dashboard, monkeypatch)
     loop = runs(dashboard)
     page = browser.new_page(viewport={"width": 1400, "height": 800})
+    page.set_default_timeout(180_000)  # on a busy machine
     page.goto(dashboard.address)
     page.get_by_role("button", name="Start evolution").click()
     end = time.monotonic() + 60 * MINUTES

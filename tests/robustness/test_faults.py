@@ -1,14 +1,16 @@
 """Headless evolution while the machine fails it: see also `tests/app/test_headless.py`."""
 
+import contextlib
 import os
 import signal
 import subprocess
 import time
-from contextlib import contextmanager
 
 import pytest
 
 from geswarm.app.main import main
+from geswarm.cli import main as reproduce
+from tests.analysis.reproduction.test_campaign import ask, made
 from tests.app.test_headless import SMALL, command, outcome
 
 PATIENCE = 120
@@ -56,7 +58,7 @@ def test_a_second_ctrl_c_ends_it_at_once(tmp_path, common, monkeypatch):
     assert "Traceback" not in err
 
 
-@contextmanager
+@contextlib.contextmanager
 def small_disk(place):
     """A file system of eight megabytes, where one may be mounted."""
     place.mkdir()
@@ -67,6 +69,13 @@ def small_disk(place):
         yield place
     finally:
         subprocess.run(["umount", str(place)], check=True)
+
+
+def fill(path):
+    """Write until there is no room left."""
+    with path.open("ab", buffering=0) as file, contextlib.suppress(OSError):
+        while True:
+            file.write(b"x" * 4096)
 
 
 def test_a_disk_that_is_full_is_said_and_costs_nothing(tmp_path, common, capsys):
@@ -88,14 +97,30 @@ def test_a_disk_that_is_full_is_said_and_costs_nothing(tmp_path, common, capsys)
 
 def test_a_disk_without_any_room_is_said(tmp_path, common, capsys):
     with small_disk(tmp_path / "disk") as disk:
-        with (disk / "room").open("wb", buffering=0) as file:
-            try:
-                while True:
-                    file.write(b"x" * 4096)
-            except OSError:
-                pass
+        fill(disk / "room")
         assert main([*common, "3", "--out", str(disk / "run")]) == 2
         err = capsys.readouterr().err
         assert str(disk / "run") in err
         assert "Traceback" not in err
         assert not (disk / "run" / "run.db").exists()
+
+
+@pytest.mark.slow
+def test_a_full_disk_under_reproduce_is_said_and_costs_nothing(tmp_path, capsys):
+    assert reproduce(ask(tmp_path / "whole")) == 0
+    with small_disk(tmp_path / "disk") as disk:
+        room = disk / "room"
+        arguments = ask(disk / "campaign")
+        for left in (100_000, 500_000):  # less than a run needs, and then than the report
+            fill(room)
+            with room.open("ab") as file:
+                file.truncate(room.stat().st_size - left)
+            assert reproduce(arguments) == 1
+            err = capsys.readouterr().err
+            assert "cannot" in err
+            assert f"Go on with: geswarm reproduce --out {disk / 'campaign'}" in err
+            assert "Traceback" not in err
+        assert not (disk / "campaign" / "report.html").exists()
+        room.unlink()
+        assert reproduce(arguments) == 0
+        assert made(disk / "campaign") == made(tmp_path / "whole")
