@@ -148,6 +148,7 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
         axes=(axis("generation", 24), axis("objects collected", 32)),
         legend=uplot.Legend(live=False),
         aspect=1.35,
+        padding=(8, 8, 0, 0),  # px: room for half of the highest number
         visible=False,
     )
 

@@ -89,7 +89,7 @@ def robot_html(state: WorldState, robot: int, rule_set: RuleSet) -> str:
         ("last rule", last_rule_html(int(state.last_rule[robot]), rule_set)),
         (
             "place",
-            f"{state.x[robot]:+.2f} m east, {state.y[robot]:+.2f} m north<br>"
+            f"{place(float(state.x[robot]), float(state.y[robot]))}<br>"
             f"heading {compass(heading)}",
         ),
     )
@@ -111,6 +111,12 @@ def last_rule_html(index: int, rule_set: RuleSet) -> str:
     comment = rule_set.rules[index].comment
     said = f'<div style="opacity:.75">{escape(comment)}</div>' if comment else ""
     return f"<b>R{index + 1}</b>{said}"
+
+
+def place(x: float, y: float) -> str:
+    """Where something is, metres from the centre of the arena, as people say it."""
+    east_west, north_south = "west" if x < 0 else "east", "south" if y < 0 else "north"
+    return f"{abs(x):.2f} m {east_west}, {abs(y):.2f} m {north_south} of the centre"
 
 
 def compass(degrees: float) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import viser
 
-from geswarm.app.panels.inspector_panel import compass, last_rule_html, robot_html
+from geswarm.app.panels.inspector_panel import compass, last_rule_html, place, robot_html
 from geswarm.app.panels.record_panel import status
 from geswarm.app.panels.scenario_panel import VALUES
 from geswarm.app.panels.show_panel import ShowPanel
@@ -32,6 +32,11 @@ def test_headings_are_said_as_a_compass_does(degrees, said):
 def test_compass_goes_all_round():
     for degrees in np.linspace(-180, 180, 721):
         assert not compass(degrees).startswith("360")
+
+
+def test_places_are_said_by_the_points_of_the_compass():
+    assert place(-1.3199, 0.8) == "1.32 m west, 0.80 m north of the centre"
+    assert place(0.5, -2.0) == "0.50 m east, 2.00 m south of the centre"
 
 
 def test_the_inspector_tells_percepts_behaviour_states_and_rule():
