@@ -89,8 +89,7 @@ def robot_html(state: WorldState, robot: int, rule_set: RuleSet) -> str:
         ("last rule", last_rule_html(int(state.last_rule[robot]), rule_set)),
         (
             "place",
-            f"{place(float(state.x[robot]), float(state.y[robot]))}<br>"
-            f"heading {compass(heading)}",
+            f"{place(float(state.x[robot]), float(state.y[robot]))}<br>heading {compass(heading)}",
         ),
     )
     cells = "".join(
