@@ -104,8 +104,9 @@ class _NoTracebacks(logging.Filter):
     """What strangers send is no fault of ours: of what fails then, one line is enough."""
 
     def filter(self, record: logging.LogRecord) -> bool:
-        # viser keeps the former quiet if it reads just so: any scan of ports would be told.
-        if record.getMessage() != "opening handshake failed" and record.exc_info:
+        if record.getMessage() == "opening handshake failed":  # a scan of ports, or HEAD
+            return False
+        if record.exc_info:
             record.msg, record.args = f"{record.getMessage()}: {record.exc_info[1]!r}", ()
             record.exc_info = None
         return True

@@ -343,3 +343,14 @@ def test_viser_that_calls_serve_differently_is_told(channel, monkeypatch):
     monkeypatch.setattr(viser.infra, "WebsockServer", Different)
     with pytest.raises(ServerError, match=r"viser .* could not be checked: serve\("):
         open_server(Access("127.0.0.1"), 0, {"rules": channel}, "test")
+
+
+@pytest.mark.parametrize("sent", [b"HEAD / HTTP/1.1\r\nHost: x\r\n\r\n", b"\0\1\n\n", b""])
+def test_who_does_not_speak_http_is_not_told_of(server, sent, caplog):
+    with socket.create_connection(("127.0.0.1", server.get_port()), timeout=20) as stranger:
+        stranger.sendall(sent)
+        stranger.shutdown(socket.SHUT_WR)
+        while stranger.recv(4096):
+            pass
+    assert get(server, "/rules/page.html")[0] == 200
+    assert not [record for record in caplog.records if record.levelname == "ERROR"]
