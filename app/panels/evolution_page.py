@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from geswarm.experiment import InjectionError
 from geswarm.ge import STEERABLE, SettingsError, StoreError
+from geswarm.rules import RuleSet
 
 from ..server.channel import Channel, Client, Message
 from ..state.look import Chosen
@@ -181,11 +182,12 @@ class EvolutionPage:
         look = self.session.runs.look
         if look is None or look.best is None:
             raise RequestError("there is no best rule set yet")
-        self.session.load(look.best)
-        return f"{look.best.name}: now in the table and in the arena; undo takes it out again"
+        return self._put_in_place(look.best)
 
     def _load(self, _message: Message) -> str:
-        rule_set = self._chosen.rule_set
+        return self._put_in_place(self._chosen.rule_set)
+
+    def _put_in_place(self, rule_set: RuleSet) -> str:
         self.session.load(rule_set)
         return f"{rule_set.name}: now in the table and in the arena; undo takes it out again"
 

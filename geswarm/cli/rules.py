@@ -21,6 +21,7 @@ EXPORT_FORMS = (
     "mermaid", "dot", "svg", "argos-lua", "automode",
 )  # fmt: skip
 
+# `SCHEMA_FILE` of the export, without importing it: help comes at once.
 _JSON_SCHEMA = Path(__file__).parents[1] / "rules" / "exports" / "rule-set.schema.json"
 
 

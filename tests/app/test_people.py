@@ -237,16 +237,16 @@ def held_up(dashboard, *acts):
     go_on.set()
 
 
+def p_of(dashboard, comment):
+    """The first probability of the rule with a comment; None if there is no such rule."""
+    rules = dashboard.session.document.rule_set.rules
+    return next((rule.actions[0].p for rule in rules if rule.comment == comment), None)
+
+
 @pytest.mark.browser
 @pytest.mark.slow
 def test_two_people_at_once(dashboard, browser):
     ada, ben = open_table(browser, dashboard), open_table(browser, dashboard)
-
-    def p_of(comment):
-        for rule in dashboard.session.document.rule_set.rules:
-            if rule.comment == comment:
-                return rule.actions[0].p
-        return None
 
     # They see one another.
     ada.get_by_test_id("people").click()
@@ -270,7 +270,7 @@ def test_two_people_at_once(dashboard, browser):
         ben.keyboard.press("Enter")
 
     held_up(dashboard, ada.get_by_test_id("rule-3-up").click, ben_changes_r3)
-    wait_until(lambda: p_of(comment) == 0.5, ben)
+    wait_until(lambda: p_of(dashboard, comment) == 0.5, ben)
     assert [rule.comment for rule in dashboard.session.document.rule_set.rules][1] == comment
     assert ben.get_by_test_id("notice-error").count() == 0
     others = [rule for rule in dashboard.session.document.rule_set.rules if rule.comment != comment]
