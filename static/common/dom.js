@@ -82,6 +82,12 @@ export function keepingFocus(change) {
   }
 }
 
+/** Give an answer the focus, unless whoever asked for it has gone elsewhere meanwhile. */
+export function focusAnswer(asker, answer) {
+  const active = document.activeElement;
+  if (active === asker || active === document.body) answer.focus();
+}
+
 /**
  * Bring components in line with data, moving and reusing them so that focus and typing survive.
  *

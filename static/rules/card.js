@@ -1,6 +1,6 @@
 /** One rule in the paper's layout: explanation, then preconditions, behaviours and actions. */
 
-import { h, icon, iconButton, identify, reconcile } from "../common/dom.js";
+import { focusAnswer, h, icon, iconButton, identify, reconcile } from "../common/dom.js";
 import { menuButton } from "../common/menu.js";
 import { ActionChip, BehaviourChip, PreconditionChip, actionChoices } from "./chips.js";
 import { makeDraggable } from "./drag.js";
@@ -63,8 +63,10 @@ class PartRow {
     this.plus.title = `Add ${this.singular}`;
     identify(this.node, `rule-${rule}-${this.part}`, `Rule ${rule}, ${this.part}`);
     identify(this.plus, `rule-${rule}-add-${this.singular}`, `Add ${this.singular} to rule ${rule}`);
-    if (this.awaited && items.length > before) this.chips.at(-1).p?.focus();
-    if (items.length > before) this.awaited = false;
+    if (items.length <= before) return;
+    const { p } = this.chips.at(-1);
+    if (this.awaited && p) focusAnswer(this.plus, p);
+    this.awaited = false;
   }
 }
 

@@ -1,6 +1,6 @@
 /** The rules in their order. */
 
-import { h, icon, keepingFocus, reconcile } from "../common/dom.js";
+import { focusAnswer, h, icon, keepingFocus, reconcile } from "../common/dom.js";
 import { RuleCard } from "./card.js";
 import { findingLine } from "./finding.js";
 
@@ -20,13 +20,13 @@ export class RuleTable {
     this.session = session;
     this.list = h("div", { class: "rules", "data-testid": "rules" });
     this.general = h("ul", { class: "findings general" });
-    const add = h(
+    this.add = h(
       "button",
       { type: "button", class: "add-rule", "data-testid": "add-rule", onclick: () => this.#addRule() },
       icon("add"),
       "add rule",
     );
-    root.append(this.general, this.list, add);
+    root.append(this.general, this.list, this.add);
   }
 
   /** @param {import("./protocol.js").RulesMessage} message */
@@ -43,7 +43,7 @@ export class RuleTable {
     if (before.size) this.#glide(before);
     if (this.#asked && this.cards.length > before.size) {
       this.#asked = false;
-      this.cards.at(-1).comment.focus();
+      focusAnswer(this.add, this.cards.at(-1).comment);
     }
   }
 

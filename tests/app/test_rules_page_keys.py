@@ -121,10 +121,30 @@ def test_the_arrow_keys_still_belong_to_a_menu_and_to_what_is_typed(page, server
     element = {"p": 1, "behaviour": "ANTI-PHOTOTAXIS"}
     edit = {"do": "add", "rule": 0, "part": "actions", "at": 1, "element": element}
     sees_edit(page, server, edit)
+    focused(page, "rule-1-action-2-p")
     comment = page.get_by_test_id("rule-2-comment")
     comment.click()
     press(page, "Control+End", "ArrowLeft", "ArrowUp", "ArrowDown")
     focused(page, "rule-2-comment")
+
+
+def test_a_late_answer_does_not_take_the_focus_from_where_the_user_has_gone(page, server):
+    server.answering = False
+    page.get_by_test_id("rule-1-add-action").click()
+    page.keyboard.press("Enter")
+    element = {"p": 1, "behaviour": "PHOTOTAXIS"}
+    edit = {"do": "add", "rule": 0, "part": "actions", "at": 1, "element": element}
+    sees_edit(page, server, edit)
+    page.get_by_test_id("rule-2-comment").click()
+    server.change(edit)
+    expect(page.get_by_test_id("rule-1-action-2-p")).to_be_visible()
+    focused(page, "rule-2-comment")
+    page.get_by_test_id("add-rule").click()
+    page.get_by_test_id("rule-3-comment").click()
+    empty = {"comment": "", "enabled": True, "preconditions": [], "behaviours": [], "actions": []}
+    server.change({"do": "add_rule", "at": 4, "rule": empty})
+    expect(page.get_by_test_id("rule-5")).to_be_visible()
+    focused(page, "rule-3-comment")
 
 
 def test_rules_are_copied_and_pasted_also_between_windows(page, server):
