@@ -40,7 +40,7 @@ class Population:
     """The population after a generation.
 
     Attributes:
-        members: The individuals, best first.
+        members: The individuals, best first, as the evolution itself ranks them.
         behaviours: How many different ones there are.
         diversity: Effective number of behaviours, exp of Shannon's entropy: equal to `behaviours`
             if all are equally frequent, 1 if there is one.
@@ -52,10 +52,10 @@ class Population:
 
     @classmethod
     def of(cls, individuals: Sequence[Individual], composition: Composition) -> Population:
-        """Look at the individuals of an engine."""
+        """Look at the individuals of an engine, in its order."""
         behaviours: dict[bytes, int] = {}
         members = []
-        for one in sorted(individuals, key=lambda one: -one.value):
+        for one in individuals:
             rule_set = behaviour = None
             if one.phenotype is not None:
                 rule_set = composition.rule_set(one.phenotype)

@@ -90,6 +90,7 @@ def test_the_page_needs_nothing_else_and_escapes_names(scenarios, tmp_path, caps
         (["evo8", "--scenario", "moon"], "moon"),
         (["evo8", "--runs", "0"], "expected a whole number >= 1"),
         (["evo8", "--runs", "1", "--html", "no/where"], "no/where: cannot be written"),
+        (["evo8", "--runs", "1", "--html", "."], ".: cannot be written: Is a directory"),
     ],
 )
 def test_usage_errors_exit_2_with_one_clear_message(arguments, message, capsys):

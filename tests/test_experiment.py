@@ -21,6 +21,7 @@ from geswarm.experiment import (
     foraging_grammar,
 )
 from geswarm.ge import Engine, Mapper, Settings, StoreError, genome_of
+from geswarm.ge.ranking import CODON_COST
 from geswarm.rules import RuleSet, format_text, load_preset, load_rule_set, parse_text
 from geswarm.sim import load_scenario
 from tests.strategies import plain_rule_sets
@@ -254,8 +255,12 @@ def test_the_population_and_its_genealogy_can_be_looked_at(tmp_path):
     run.run()
     population = run.population()
     assert len(population.members) == 12
-    fitness = [one.fitness for one in population.members]
-    assert fitness == sorted(fitness, reverse=True)
+    firsts = {one.behaviour: one for one in reversed(population.members)}  # copies come last
+    assert set(population.members[: len(firsts)]) == set(firsts.values())
+    for told in {one.told for one in firsts.values()}:  # who is known equally well
+        members = [one for one in population.members[: len(firsts)] if one.told == told]
+        worth = [one.fitness / (1 + CODON_COST * one.codons) for one in members]
+        assert worth == sorted(worth, reverse=True)
     assert population.behaviours == len({one.behaviour for one in population.members})
     assert 1 <= population.diversity <= population.behaviours
     line = run.genealogy()

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
+import time
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
@@ -64,3 +66,40 @@ class Newest(Generic[Question]):
 
     def _stop_for(self, question: Question) -> Stop:
         return lambda: self._closed or self._question is not question
+
+
+class Lookout:
+    """Finds out how things stand, off the loop, again and again.
+
+    It rests for twice as long as a look takes, so that the loop has its share.
+
+    Args:
+        name: Of the thread.
+        look: Called with a `stop`, see `Newest`.
+    """
+
+    def __init__(self, name: str, look: Callable[[Stop], None]) -> None:
+        self._look = look
+        self._rest_until = 0.0
+        self._newest: Newest[object] = Newest(name, self._answer)
+
+    def ask(self) -> None:
+        """Look, unless a look is under way or it rests."""
+        if time.monotonic() >= self._rest_until:
+            self._rest_until = math.inf
+            self._newest.ask(object())
+
+    def hurry(self) -> None:
+        """The next `ask` looks at once: there is something new."""
+        self._rest_until = 0.0
+
+    def close(self) -> None:
+        """End the thread."""
+        self._newest.close()
+
+    def _answer(self, _question: object, stop: Stop) -> None:
+        began = time.monotonic()
+        try:
+            self._look(stop)
+        finally:
+            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)

@@ -17,7 +17,7 @@ from geswarm.rules import load_preset
 from geswarm.sim import EvaluationStopped, load_scenario
 
 from ..run_directory import RUNS, new_directory
-from .background import Newest, Stop
+from .background import Lookout, Stop
 from .campaign_folder import CampaignFolder, CampaignLook, CampaignSummary
 from .campaign_thread import CampaignThread
 from .evolution import EvolutionThread
@@ -89,8 +89,7 @@ class Campaigns:
         self.folder = CampaignFolder(folder)
         self._evolution = evolution
         self._opened: str | None = None
-        self._newest: Newest[object] = Newest("campaigns", self._refresh)
-        self._rest_until = 0.0
+        self._lookout = Lookout("campaigns", self._find_out)
 
     @property
     def shown(self) -> str | None:
@@ -154,36 +153,27 @@ class Campaigns:
             CampaignError: There is no such campaign.
         """
         self._opened = self.folder.directory(name).name
-        self._rest_until = 0.0
+        self._lookout.hurry()
 
     def refresh(self) -> None:
         """Find out in the background how things stand, unless that is being done already."""
-        if time.monotonic() >= self._rest_until:
-            self._rest_until = math.inf
-            self._newest.ask(object())
+        self._lookout.ask()
 
     def close(self) -> None:
         """Stop the campaign under way and end the threads."""
         self.thread.stop()
-        self._newest.close()
+        self._lookout.close()
 
     def _launch(self, campaign: Campaign) -> None:
         self.thread.start(campaign)
         self._opened = None
-        self._rest_until = 0.0
+        self._lookout.hurry()
 
     def _require_rest(self) -> None:
         if self._evolution.active:
             raise CampaignError("an evolution is under way: stop it first, on the page Evolution")
         if self.thread.active:
             raise CampaignError("a campaign is under way: stop it first")
-
-    def _refresh(self, _question: object, stop: Stop) -> None:
-        began = time.monotonic()
-        try:
-            self._find_out(stop)
-        finally:
-            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)
 
     def _find_out(self, stop: Stop) -> None:
         self.kept = self.folder.scan()

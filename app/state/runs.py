@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import math
-import time
 from pathlib import Path
 
 from geswarm.rules import RuleSet
 from geswarm.sim import EvaluationStopped, Scenario
 
 from ..run_directory import RUNS, new_run_directory
-from .background import Newest, Stop
+from .background import Lookout, Stop
 from .evolution import EvolutionThread, evaluate_references
 from .look import Chosen, Lens, Look
 from .plan import Plan, PlanError
@@ -50,8 +48,7 @@ class Runs:
         self._opened: Path | None = None
         self._lens = Lens()
         self._references: dict[Scenario, dict[str, float]] = {}
-        self._rest_until = 0.0
-        self._newest: Newest[object] = Newest("runs", self._refresh)
+        self._lookout = Lookout("runs", self._find_out)
 
     @property
     def shown(self) -> Path | None:
@@ -178,24 +175,12 @@ class Runs:
         self.chosen = None
 
     def refresh(self) -> None:
-        """Find out in the background how things stand, unless that is being done already.
-
-        It then rests for twice as long as that takes, so that the loop has its share.
-        """
-        if time.monotonic() >= self._rest_until:
-            self._rest_until = math.inf
-            self._newest.ask(object())
+        """Find out in the background how things stand, unless that is being done already."""
+        self._lookout.ask()
 
     def close(self) -> None:
         """End the thread."""
-        self._newest.close()
-
-    def _refresh(self, _question: object, stop: Stop) -> None:
-        began = time.monotonic()
-        try:
-            self._find_out(stop)
-        finally:
-            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)
+        self._lookout.close()
 
     def _find_out(self, stop: Stop) -> None:
         evolution, directory = self.evolution, self.shown

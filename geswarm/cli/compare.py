@@ -13,7 +13,7 @@ from geswarm.cli.arguments import (
     Verbs,
     add_simulation_options,
 )
-from geswarm.cli.output import progress_bar, write_files
+from geswarm.cli.output import progress_bar, require_writable, write_files
 
 if TYPE_CHECKING:
     from geswarm.analysis.compared import Compared
@@ -44,6 +44,8 @@ def _compare(options: argparse.Namespace) -> int:
         scenarios = [load_scenario(name).with_changes(name=name) for name in names]
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
+    if options.html is not None:
+        require_writable(options.html)
     if not is_compiled():
         warm_up()
     cases = [Case(name, scenario) for scenario in scenarios for name in rule_sets]
@@ -57,12 +59,12 @@ def _compare(options: argparse.Namespace) -> int:
             on_progress=on_progress,
         )
     compared = Compared(rule_sets, samples, options.rules[0], options.runs, options.seed)
-    if options.html is not None:
-        write_files({options.html: compared.page()})
     if options.json:
         print(json.dumps(compared.document()))
     else:
         _print_table(compared)
+    if options.html is not None:
+        write_files({options.html: compared.page()})
     return 0
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
 
 from geswarm.cli.arguments import UsageError
 
@@ -24,8 +27,31 @@ def write_files(files: Mapping[str | None, str]) -> None:
         try:
             write_whole(text, path)
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise UsageError(f"{path}: cannot be written: {reason}") from error
+            raise _cannot_be_written(path, error) from error
+
+
+def require_writable(path: str) -> None:
+    """Refuse a file that could not be written after the work before it.
+
+    Raises:
+        UsageError: It is a directory, or nothing can be written where it lies.
+    """
+    from tempfile import TemporaryFile
+
+    place = Path(path)
+    try:
+        if place.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        if place.is_file() or not place.exists():
+            with TemporaryFile(dir=place.parent):
+                pass
+    except (OSError, ValueError) as error:
+        raise _cannot_be_written(path, error) from error
+
+
+def _cannot_be_written(path: str, error: Exception) -> UsageError:
+    reason = getattr(error, "strerror", None) or str(error)
+    return UsageError(f"{path}: cannot be written: {reason}")
 
 
 @contextmanager

@@ -68,7 +68,7 @@ export class Population {
 }
 
 const COLUMNS = {
-  "#": "Rank by fitness",
+  "#": "Rank: by fitness; where individuals are evaluated again, less what may be luck, and copies of a behaviour last",
   Fitness: "Objects collected per run, mean of its evaluations",
   "Eval.": "How often it was evaluated",
   Codons: "Length of its genome",

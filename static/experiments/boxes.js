@@ -34,7 +34,8 @@ export class Boxes {
     this.node.hidden = scenarios.length === 0;
     this.title.textContent = `Collected objects, ${runs} runs each, seed ${seed}`;
     this.tables.replaceChildren(...scenarios.map((scenario) => table(scenario, against)));
-    this.explanation.textContent = explanation;
+    const colour = `In colour, better or worse: p Holm < ${SIGNIFICANT}.`;
+    this.explanation.textContent = explanation && `${explanation} ${colour}`;
   }
 }
 

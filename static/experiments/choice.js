@@ -1,9 +1,8 @@
 /** Which rule sets are compared in which scenarios, and how often they run. */
 
 import { h, icon, identify } from "../common/dom.js";
+import { ruleSetFile } from "../common/file.js";
 import { NumberField } from "./field.js";
-
-const LARGEST_FILE = 200_000; // bytes
 
 export class Choice {
   /**
@@ -53,25 +52,10 @@ export class Choice {
   }
 
   #files() {
-    const file = h("input", {
-      type: "file",
-      accept: ".yaml,.yml,.rules,.txt,.json",
-      hidden: true,
-      "aria-label": "Rule set file",
-      "data-testid": "file",
-      onchange: () => this.#open(file),
-    });
+    const file = ruleSetFile(this.notices, ({ name, text }) => this.send({ type: "file", name, text }));
     const button = h("button", { type: "button", class: "quiet", onclick: () => file.click() }, icon("open"), "Open file…");
     identify(button, "open-file");
     return h("div", {}, button, file);
-  }
-
-  async #open(input) {
-    const [file] = input.files;
-    input.value = "";
-    if (!file) return;
-    if (file.size > LARGEST_FILE) this.notices.show("error", `${file.name}: ${file.size} bytes are too many for a rule set.`);
-    else this.send({ type: "file", name: file.name, text: await file.text() });
   }
 }
 

@@ -1,10 +1,9 @@
 /** Name and origin of the rule set, undo and redo, load and save. */
 
 import { h, icon, iconButton, identify } from "../common/dom.js";
+import { ruleSetFile } from "../common/file.js";
 import { menuButton } from "../common/menu.js";
 import { draftField, growing } from "./field.js";
-
-const LARGEST_FILE = 100_000; // bytes; the server cuts off longer messages
 
 /**
  * @param {import("./protocol.js").Origin} origin
@@ -76,14 +75,9 @@ export class Header {
   }
 
   #files() {
-    const file = h("input", {
-      type: "file",
-      accept: ".yaml,.yml,.rules,.txt,.json",
-      hidden: true,
-      "aria-label": "Rule set file",
-      "data-testid": "file",
-      onchange: () => this.#open(file),
-    });
+    const file = ruleSetFile(this.notices, ({ name, text }) =>
+      this.session.command({ type: "load_text", name, text }),
+    );
     const load = menuButton(
       { class: "button", "data-testid": "load", "aria-label": "Load a rule set" },
       () => this.#sources(file),
@@ -112,20 +106,8 @@ export class Header {
       detail: "preset",
       choose: () => this.session.command({ type: "load_preset", name }),
     }));
-    const open = { id: "file", label: "Open file…", detail: "YAML or text", divided: true };
+    const open = { id: "file", label: "Open file…", detail: "YAML, text or JSON", divided: true };
     return [...presets, { ...open, choose: () => file.click() }];
-  }
-
-  async #open(input) {
-    const [file] = input.files;
-    input.value = "";
-    if (!file) return;
-    if (file.size > LARGEST_FILE) {
-      this.notices.show("error", `${file.name}: ${file.size} bytes are too many for a rule set.`);
-      return;
-    }
-    const text = await file.text();
-    this.session.command({ type: "load_text", name: file.name, text });
   }
 }
 

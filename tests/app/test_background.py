@@ -1,8 +1,9 @@
 """Work off the loop, of which only the newest matters."""
 
 import queue
+import threading
 
-from geswarm.app.state.background import Newest
+from geswarm.app.state.background import Lookout, Newest
 
 
 def test_a_question_that_fails_does_not_end_the_answers(caplog):
@@ -19,3 +20,23 @@ def test_a_question_that_fails_does_not_end_the_answers(caplog):
     assert answers.get(timeout=60) == 0.5
     newest.close()
     assert "division failed" in caplog.text
+
+
+def test_a_lookout_looks_once_at_a_time_and_rests_unless_it_is_hurried():
+    looks, go_on = queue.SimpleQueue(), threading.Event()
+
+    def look(_stop):
+        looks.put("begun")
+        assert go_on.wait(60)
+
+    lookout = Lookout("lookout", look)
+    lookout.ask()
+    assert looks.get(timeout=60) == "begun"
+    lookout.ask()
+    assert looks.empty()
+    lookout.hurry()
+    lookout.ask()  # there is something new: once more
+    go_on.set()
+    assert looks.get(timeout=60) == "begun"
+    lookout.close()
+    assert looks.empty()

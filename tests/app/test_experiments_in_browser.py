@@ -95,6 +95,7 @@ def test_rule_sets_are_compared_and_saved(page, tmp_path):
     expect(rows.locator("circle")).to_have_count(12)
     expect(rows.nth(1)).to_have_class(re.compile("reference"))
     expect(page.get_by_test_id("explanation")).to_contain_text("Mann-Whitney against EVO 8")
+    expect(page.get_by_test_id("explanation")).to_contain_text("p Holm < 0.001")
     with page.expect_download() as download:
         page.get_by_test_id("save-json").click()
     document = json.loads(Path(download.value.path()).read_text(encoding="utf-8"))

@@ -47,7 +47,7 @@ def test_a_failed_load_shows_every_reason_until_dismissed(page, server):
 
 
 def test_a_file_that_is_too_long_is_refused_on_the_spot(page, server):
-    file = {"name": "big.yaml", "mimeType": "text/yaml", "buffer": b"#" * 100_001}
+    file = {"name": "big.yaml", "mimeType": "text/yaml", "buffer": b"#" * 200_001}
     page.get_by_test_id("file").set_input_files(file)
     expect(page.get_by_test_id("notice-error")).to_contain_text("big.yaml")
     assert server.received == []
