@@ -2,7 +2,7 @@
 
 import pytest
 
-from geswarm.rules import RuleSet, format_text, load_preset
+from geswarm.rules import RuleSet, format_text, load_preset, parse_text
 from tests.app.rules_browser import expect, page_fixture, sees_edit, server_fixture, tells
 
 __all__ = ["page_fixture", "server_fixture"]
@@ -71,7 +71,7 @@ def test_the_text_is_applied_and_comes_back_in_its_usual_form(page, server):
     source.fill(text)
     source.press("Control+Enter")
     tells(page, server, {"type": "set_text", "text": text, "version": 1})
-    expect(source).to_have_value(format_text(server.document.rule_set))
+    expect(source).to_have_value(format_text(parse_text(text)))
     expect(page.get_by_test_id("apply-text")).to_be_disabled()
     expect(page.get_by_test_id("changed-meanwhile")).to_be_hidden()
     page.get_by_test_id("undo").click()
@@ -164,6 +164,7 @@ def test_what_was_simplified_cannot_be_taken_once_the_rules_have_changed(page, s
     server.simpler = 3
     server.push(server.rules())
     page.get_by_test_id("simplify").click()
+    expect(page.get_by_test_id("simplified")).to_be_visible()
     expect(page.get_by_test_id("take-simplified")).to_be_enabled()
     server.change({"do": "remove_rule", "rule": 0})
     expect(page.get_by_test_id("take-simplified")).to_be_disabled()
