@@ -13,9 +13,9 @@ import time
 import viser
 
 from geswarm.cli import UsageError
-from geswarm.cli.stopping import end_on_signals
+from geswarm.cli.stopping import compile_first
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
-from geswarm.sim import Scenario, ScenarioError, is_compiled, load_scenario, warm_up
+from geswarm.sim import Scenario, ScenarioError, load_scenario
 
 from .panels.evolution_page import EvolutionPage
 from .panels.evolution_panel import EvolutionPanel
@@ -179,9 +179,7 @@ def run_dashboard(options: argparse.Namespace) -> int:
         rule_set = load_rule_set(options.rules or "evo8")
     except (ScenarioError, RuleSetError) as error:
         raise UsageError(str(error)) from error
-    if not is_compiled():
-        with end_on_signals("geswarm-ui"):
-            warm_up()
+    compile_first("geswarm-ui: stopped")
     port = 8080 if options.port is None else options.port
     try:
         dashboard = open_dashboard(

@@ -18,11 +18,11 @@ from rich.progress import (
 )
 
 from geswarm.cli import UsageError
-from geswarm.cli.stopping import STOPPED_STATUS, every, stop_on_signals
+from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
 from geswarm.cluster import ClusterError, cluster_executor
 from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
-from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
+from geswarm.sim import ScenarioError, load_scenario
 
 from .run_directory import new_run_directory
 
@@ -49,8 +49,7 @@ def _evolve_and_report(
 ) -> int:
     try:
         with stop_on_signals() as stop:
-            if not is_compiled():
-                warm_up()
+            compile_first(f"Stopped. {_how_to_resume(run)}")
             _evolve(run, workers, executor, stop, console)
     except (StoreError, EvaluationError) as error:
         console.print(f"geswarm-ui: {error}", markup=False, soft_wrap=True)

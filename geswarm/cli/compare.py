@@ -14,6 +14,7 @@ from geswarm.cli.arguments import (
     add_simulation_options,
 )
 from geswarm.cli.output import progress_bar, require_writable, write_files
+from geswarm.cli.stopping import compile_first
 
 if TYPE_CHECKING:
     from geswarm.analysis.compared import Compared
@@ -33,7 +34,7 @@ def _compare(options: argparse.Namespace) -> int:
     from geswarm.analysis.cases import Case, run_cases
     from geswarm.analysis.compared import Compared
     from geswarm.rules import RuleSetError, load_rule_set
-    from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
+    from geswarm.sim import ScenarioError, load_scenario
 
     names = options.scenario or ["paper"]
     for what, given in (("rules", options.rules), ("scenario", names)):
@@ -46,8 +47,7 @@ def _compare(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     if options.html is not None:
         require_writable(options.html)
-    if not is_compiled():
-        warm_up()
+    compile_first("geswarm: stopped")
     cases = [Case(name, scenario) for scenario in scenarios for name in rule_sets]
     with progress_bar() as on_progress:
         samples = run_cases(

@@ -16,6 +16,7 @@ from geswarm.cli.arguments import (
     add_simulation_options,
 )
 from geswarm.cli.output import progress_bar
+from geswarm.cli.stopping import compile_first
 
 if TYPE_CHECKING:
     from geswarm.analysis import Comparison
@@ -39,15 +40,14 @@ def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.analysis import compare
     from geswarm.experiment import evaluate_rule_sets
     from geswarm.rules import RuleSetError, load_rule_set
-    from geswarm.sim import ScenarioError, is_compiled, load_scenario, warm_up
+    from geswarm.sim import ScenarioError, load_scenario
 
     try:
         rule_sets = [load_rule_set(reference) for reference in options.rules]
         scenario = load_scenario(options.scenario)
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
-    if not is_compiled():
-        warm_up()
+    compile_first("geswarm: stopped")
     with progress_bar() as on_progress:
         evaluations = evaluate_rule_sets(
             rule_sets,

@@ -10,7 +10,7 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from geswarm.cli.arguments import UsageError, Verbs, non_negative_int, positive_int
-from geswarm.cli.stopping import STOPPED_STATUS, every, stop_on_signals
+from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
 
 if TYPE_CHECKING:
     from geswarm.analysis.reproduction import Campaign, Results
@@ -65,11 +65,10 @@ def _carry_out(campaign: Campaign, options: argparse.Namespace, stop: threading.
     from geswarm.cluster import ClusterError, cluster_executor
     from geswarm.experiment import EvaluationError
     from geswarm.ge import StoreError
-    from geswarm.sim import EvaluationStopped, is_compiled, warm_up
+    from geswarm.sim import EvaluationStopped
 
     go_on = f"Go on with: geswarm reproduce --out {campaign.directory}"
-    if not is_compiled():
-        warm_up()
+    compile_first(f"Stopped. {go_on}")
     with ExitStack() as resources:
         try:
             executor = None

@@ -43,16 +43,23 @@ def stop_on_signals() -> Iterator[threading.Event]:
         yield stop
 
 
-@contextmanager
-def end_on_signals(program: str) -> Iterator[None]:
-    """Ctrl-C and SIGTERM end the program without ado: the compiler loses or prints exceptions."""
+def compile_first(last_words: str) -> None:
+    """Compile the simulator unless that has been done; Ctrl-C and SIGTERM end the program there.
+
+    They end it without ado, as the compiler loses or prints exceptions.
+
+    Args:
+        last_words: Written to stderr then.
+    """
+    from geswarm.sim import is_compiled, warm_up
 
     def end(_number: int, _frame: object) -> None:
-        os.write(2, f"{program}: stopped\n".encode())
+        os.write(2, f"{last_words}\n".encode())
         os._exit(STOPPED_STATUS)
 
-    with _on_signals(end):
-        yield
+    if not is_compiled():
+        with _on_signals(end):
+            warm_up()
 
 
 @contextmanager

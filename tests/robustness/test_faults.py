@@ -1,16 +1,17 @@
-"""Headless evolution while the machine fails it: see also `tests/app/test_headless.py`."""
+"""Long commands while the machine fails them: see also `tests/app/test_headless.py`."""
 
 import contextlib
 import os
 import signal
 import subprocess
-import time
 
 import pytest
 
 from geswarm.app.main import main
 from geswarm.cli import main as reproduce
+from geswarm.cli.stopping import stop_on_signals
 from tests.analysis.reproduction.test_campaign import ask, made
+from tests.analysis.reproduction.test_campaign import command as reproduce_command
 from tests.app.test_headless import SMALL, command, outcome
 
 PATIENCE = 120
@@ -39,23 +40,37 @@ def test_stopped_while_it_compiles_it_goes_on_later(tmp_path, common, number, mo
         assert process.returncode == -signal.SIGKILL
     else:
         assert process.returncode == 130
-        assert f"Stopped. Resume with: geswarm-ui --no-ui --resume {part}" in err
+        assert err == f"Stopped. Resume with: geswarm-ui --no-ui --resume {part}\n"
     monkeypatch.undo()
     assert main(["--no-ui", "--resume", str(part)]) == 0
     assert outcome(part) == outcome(whole)
 
 
 @pytest.mark.long
-def test_a_second_ctrl_c_ends_it_at_once(tmp_path, common, monkeypatch):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_reproduce_stopped_while_it_compiles_goes_on_later(tmp_path, number, monkeypatch):
+    whole, part = tmp_path / "whole", tmp_path / "part"
+    assert reproduce(ask(whole)) == 0
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "nothing compiled yet"))
-    process = command(*common, "3", "--out", str(tmp_path / "run"))
+    arguments = ask(part)
+    process = reproduce_command(arguments)
     assert process.stderr.readline().startswith("Compiling")
-    for _ in range(2):
-        process.send_signal(signal.SIGINT)
-        time.sleep(1.0)
-    err = process.communicate(timeout=PATIENCE)[1]
+    process.send_signal(number)
+    _, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
-    assert "Traceback" not in err
+    assert err == f"Stopped. Go on with: geswarm reproduce --out {part}\n"
+    monkeypatch.undo()
+    assert reproduce(arguments) == 0
+    assert made(part) == made(whole)
+
+
+def test_a_second_ctrl_c_does_not_wait():
+    with stop_on_signals() as stop:
+        os.kill(os.getpid(), signal.SIGINT)
+        assert stop.is_set()
+        os.kill(os.getpid(), signal.SIGTERM)
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
 
 
 @contextlib.contextmanager
