@@ -8,6 +8,7 @@ whatever the number of rules.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
@@ -20,6 +21,8 @@ from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
+Outcome: TypeAlias = tuple[int, int, bool]
+"""Behaviour, internal-state bits, restart."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,7 @@ class Indexing:
         """Column of one outcome."""
         return (behaviour * self.states + state) * 2 + restart
 
-    def describe_outcome(self, outcome: int) -> tuple[int, int, bool]:
+    def describe_outcome(self, outcome: int) -> Outcome:
         """(behaviour, internal-state bits, restart) of a column."""
         rest, restart = divmod(outcome, 2)
         behaviour, state = divmod(rest, self.states)
@@ -133,7 +136,11 @@ def apply_rule(distribution: FloatArray, rule: Rule, vocabulary: Vocabulary) -> 
 
 def apply_action(distribution: FloatArray, action: Action, vocabulary: Vocabulary) -> FloatArray:
     """Mix in the outcomes of the action with its probability; shape (..., outcomes)."""
-    done = distribution @ _action_matrix(action, vocabulary)
+    if isinstance(action, BehaviourChange):
+        matrix = _behaviour_matrix(action.behaviour, vocabulary)
+    else:
+        matrix = _state_matrix(action.state, action.value, vocabulary)
+    done = distribution @ matrix
     return (1.0 - action.p) * distribution + action.p * done
 
 
@@ -160,21 +167,34 @@ def _active_part(
     return part
 
 
-@lru_cache(maxsize=1024)
-def _action_matrix(action: Action, vocabulary: Vocabulary) -> FloatArray:
-    """What the action does if it is drawn, as a 0/1 matrix, shape (outcomes, outcomes)."""
+@lru_cache(maxsize=64)
+def _behaviour_matrix(name: str, vocabulary: Vocabulary) -> FloatArray:
+    """What a change of the behaviour does, as a 0/1 matrix, shape (outcomes, outcomes)."""
+    target = vocabulary.behaviour_index[name]
+    restarts = vocabulary.behaviours[target].restarts
+
+    def effect(behaviour: int, state: int, restart: bool) -> Outcome:
+        return target, state, restart if behaviour == target else restarts
+
+    return _matrix(effect, vocabulary)
+
+
+@lru_cache(maxsize=64)
+def _state_matrix(name: str, value: bool, vocabulary: Vocabulary) -> FloatArray:
+    """What setting an internal state does, as a 0/1 matrix, shape (outcomes, outcomes)."""
+    bit = 1 << vocabulary.state_index[name]
+
+    def effect(behaviour: int, state: int, restart: bool) -> Outcome:
+        return behaviour, state | bit if value else state & ~bit, restart
+
+    return _matrix(effect, vocabulary)
+
+
+def _matrix(effect: Callable[[int, int, bool], Outcome], vocabulary: Vocabulary) -> FloatArray:
     indexing = Indexing.of(vocabulary)
     matrix = np.zeros((indexing.outcomes, indexing.outcomes))
     for before in range(indexing.outcomes):
-        behaviour, state, restart = indexing.describe_outcome(before)
-        if isinstance(action, BehaviourChange):
-            target = vocabulary.behaviour_index[action.behaviour]
-            if target != behaviour:
-                restart = vocabulary.behaviours[target].restarts
-            behaviour = target
-        else:
-            bit = 1 << vocabulary.state_index[action.state]
-            state = state | bit if action.value else state & ~bit
-        matrix[before, indexing.outcome(behaviour, state, restart)] = 1.0
+        after = effect(*indexing.describe_outcome(before))
+        matrix[before, indexing.outcome(*after)] = 1.0
     matrix.setflags(write=False)
     return matrix
