@@ -28,8 +28,13 @@ def rows_of(text):
     return list(csv.DictReader(text.splitlines()))
 
 
+def evolved_rules(name):
+    """The best rules of a run."""
+    return read_rule_set(text_of(f"rules/{name.replace(' ', '-')}.yaml"))
+
+
 def published():
-    """What the campaign found; of the evolved rule sets, only the best is published."""
+    """What the campaign found."""
     plan = Plan.from_yaml(text_of("campaign.yaml"))
     histories = {studies.evolved_name(seed): [] for seed in plan.seeds}
     for row in rows_of(text_of("history.csv")):
@@ -47,7 +52,7 @@ def published():
         plan,
         histories,
         {
-            best: read_rule_set(text_of("best.yaml")),
+            **{name: evolved_rules(name) for name in histories},
             studies.EVO_8: load_preset("evo8"),
             studies.HAND_CODED: load_preset("hand-coded"),
         },
