@@ -102,4 +102,5 @@ class Lookout:
         try:
             self._look(stop)
         finally:
-            self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)
+            if self._rest_until == math.inf and not stop():  # neither hurried nor asked again
+                self._rest_until = time.monotonic() + 2 * (time.monotonic() - began)

@@ -2,6 +2,7 @@
 
 import queue
 import threading
+import time
 
 from geswarm.app.state.background import Lookout, Newest
 
@@ -40,3 +41,22 @@ def test_a_lookout_looks_once_at_a_time_and_rests_unless_it_is_hurried():
     assert looks.get(timeout=60) == "begun"
     lookout.close()
     assert looks.empty()
+
+
+def test_a_lookout_that_is_hurried_during_a_look_does_not_rest_after_it():
+    looks, ended = queue.SimpleQueue(), threading.Event()
+
+    def look(_stop):
+        looks.put("begun")
+        time.sleep(0.2)  # so that it would rest for longer than the test waits
+        lookout.hurry()
+        ended.set()
+
+    lookout = Lookout("lookout", look)
+    lookout.ask()
+    assert ended.wait(60)
+    for _ in range(20):  # until the thread has left the look
+        time.sleep(0.01)
+        lookout.ask()
+    assert [looks.get(timeout=60) for _ in range(2)] == ["begun", "begun"]
+    lookout.close()

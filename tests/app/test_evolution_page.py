@@ -62,6 +62,13 @@ class Talker:
             self.say("watch")
             time.sleep(0.01)
 
+    def rest(self):
+        """Wait until the generation that was at work when the run was paused is done."""
+        done = -1
+        while done != len(self.evolution.history):
+            done = len(self.evolution.history)
+            time.sleep(0.5)
+
     def plan(self, **values):
         for name, value in values.items():
             self.say("plan", name=name, value=value)
@@ -164,21 +171,22 @@ def test_steering_and_injection_are_marked_in_the_curve(talker):
     talker.plan(population=6, generations=100_000, evaluations=1)
     talker.say("start", instead=False)
     talker.until(lambda: len(talker.evolution.history) > 1)
+    talker.say("pause")
+    assert talker.last("status")["phase"] == "PAUSED"
+    talker.rest()
+    talker.say("start", instead=False)
+    assert "stop it first" in talker.last("notice")["text"]
     talker.say("steer", name="mutation", value=0.5)
     talker.say("inject")
     assert talker.last("notice")["level"] == "info"
     assert talker.last("status")["settings"]["mutation"] == 0.5
     assert talker.last("status")["idle"] == ["tournament"]
+    talker.say("go_on")
     talker.until(lambda: len(talker.last("curves")["marks"]) == 2)
     steered, entered = talker.last("curves")["marks"]
     assert steered["text"] == "mutation 0.05 → 0.5"
     assert steered["generation"] == entered["generation"]
     assert entered["text"].startswith("rules from the table entered, fitness")
-    talker.say("pause")
-    assert talker.last("status")["phase"] == "PAUSED"
-    talker.say("start", instead=False)
-    assert "stop it first" in talker.last("notice")["text"]
-    talker.say("go_on")
     talker.say("stop")
     talker.until(lambda: talker.evolution.phase is Phase.STOPPED)
     talker.say("steer", name="mutation", value=0.5)

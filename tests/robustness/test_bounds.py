@@ -62,7 +62,7 @@ ELEMENTS = "rule" + " if ON_NEST == true" + " and ON_NEST == true" * 1000 + " do
         ("x.rules", RULE * 10_000, "x.rules: expected at most 200000 characters, got more"),
         ("x.rules", ELEMENTS, "expected at most 1000 preconditions, behaviours and actions"),
         ("x.rules", "rule do " + '"' + '\\"' * 90_000, "x.rules:1: rule 1, action 1: expected p ="),
-        ("x.rules", "rule if " + "X" * 90_000 + " == true", "unknown precondition 'XXX"),
+        ("x.rules", "rule if " + "Q" * 90_000 + " == true", "unknown precondition 'QQQ"),
         ("x.rules", 'origin generation 1, fitness 1e999 rule do p = 1, PHOTOTAXIS', "finite"),
         ("x.rules", f"name {DEEP}", "name: expected a text in double quotes, got '[[["),
         ("x.json", DEEP, "not valid JSON: it is nested too deeply"),

@@ -5,7 +5,7 @@ from pathlib import Path
 from geswarm.rules import load_preset, read_rule_set
 from geswarm.rules.compare import same_behaviour
 
-PUBLISHED = Path(__file__).parents[2] / "static" / "reproduction" / "best.yaml"
+PUBLISHED = Path(__file__).parents[2] / "static" / "reproduction" / "rules" / "seed-5.yaml"
 
 
 def test_the_preset_is_the_best_of_the_campaign():
