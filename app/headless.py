@@ -19,8 +19,13 @@ from rich.progress import (
 
 from geswarm.cli import UsageError
 from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
-from geswarm.cluster import ClusterError, cluster_executor
-from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
+from geswarm.evolution import (
+    ClusterError,
+    EvaluationError,
+    EvolutionRun,
+    RunConfig,
+    cluster_executor,
+)
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
 from geswarm.sim import ScenarioError, load_scenario
 

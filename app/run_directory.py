@@ -6,7 +6,7 @@ from datetime import datetime
 from itertools import count
 from pathlib import Path
 
-from geswarm.experiment import RunConfig
+from geswarm.evolution import RunConfig
 
 RUNS = Path("runs")
 

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 import numba
 import numpy as np
 
-from geswarm.experiment import EvolutionRun, RunConfig, foraging_grammar
+from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
 from geswarm.ge import Settings
 from geswarm.ge.mapping import CODON_LIMIT, Mapper
 from geswarm.rules import ControlTable, load_preset
@@ -206,7 +206,7 @@ def _swarm(robots: int) -> dict[str, Any]:
 
 def _mapping() -> float:
     """Genomes of 200 codons mapped per second."""
-    mapper = Mapper(foraging_grammar())
+    mapper = Mapper(rule_grammar())
     numbers = random.Random(1)
     genomes = [tuple(numbers.randrange(CODON_LIMIT) for _ in range(200)) for _ in range(2000)]
 

@@ -8,8 +8,8 @@ import pytest
 
 from geswarm.cli import main
 from geswarm.cli.rules import EXPORT_FORMS
+from geswarm.exports import EXPORTS
 from geswarm.rules import load_preset, load_rule_set, parse_text, parse_yaml
-from geswarm.rules.exports import EXPORTS
 
 QUICK = "extends: paper\nduration: 100\n"
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import geswarm.analysis
-import geswarm.experiment
+import geswarm.evolution
+import geswarm.exports
 import geswarm.ge
 import geswarm.rules
-import geswarm.rules.exports
 import geswarm.rules.state_machine
 import geswarm.sim
 
@@ -19,11 +19,11 @@ import geswarm.sim
     "module",
     [
         geswarm.rules,
-        geswarm.rules.exports,
+        geswarm.exports,
         geswarm.rules.state_machine,
         geswarm.sim,
         geswarm.ge,
-        geswarm.experiment,
+        geswarm.evolution,
         geswarm.analysis,
     ],
     ids=lambda module: module.__name__,
@@ -42,7 +42,7 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
     exec(compile(example.replace("generations=30", "generations=1"), "README.md", "exec"), {})
     assert "Comparison(" in capsys.readouterr().out
     assert (tmp_path / "best.yaml").exists()
-    run = geswarm.experiment.EvolutionRun.read("runs/mine")
+    run = geswarm.evolution.EvolutionRun.read("runs/mine")
     assert len(run.history) == 1
     assert run.population()
     assert run.genealogy()

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from geswarm.evolution import Member
 from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual
-from geswarm.population import Member
 from geswarm.rules import RuleSet, describe, load_preset
 from geswarm.rules.text import format_rule
 from geswarm.sim import Scenario

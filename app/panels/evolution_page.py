@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geswarm.experiment import InjectionError
+from geswarm.evolution import InjectionError
 from geswarm.ge import STEERABLE, SettingsError, StoreError
 from geswarm.rules import RuleSet
 

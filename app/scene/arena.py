@@ -9,11 +9,13 @@ from typing import TypeAlias
 import numpy as np
 import viser
 
+from geswarm.sim import Scenario
+
 from .. import palette
 from ..palette import Colour
 from ..state.view import ArenaView, Kind
 from .footbot import distant_footbot, footbot, puck, yaw_quaternions
-from .scenery import ArenaShape, draw_scenery
+from .scenery import draw_scenery
 from .shapes import Mesh
 
 MOST_IN_DETAIL = 1000
@@ -74,7 +76,7 @@ class Arena:
         self.handles: ArenaHandles | None = None
 
     def build(
-        self, scene: viser.SceneApi, shape: ArenaShape, at: tuple[float, float] = (0.0, 0.0)
+        self, scene: viser.SceneApi, scenario: Scenario, at: tuple[float, float] = (0.0, 0.0)
     ) -> None:
         """Draw a scenario, instead of the one drawn before if there is one.
 
@@ -82,7 +84,7 @@ class Arena:
 
         Args:
             scene: Where to draw.
-            shape: Arena, zones and light.
+            scenario: Arena, zones and light.
             at: Where the centre of the arena is in the scene, metres.
         """
         self.remove()
@@ -90,7 +92,7 @@ class Arena:
         self.handles = ArenaHandles(
             scene.add_frame(self.root, show_axes=False, position=(*at, 0.0))
         )
-        draw_scenery(scene, self.root, shape)
+        draw_scenery(scene, self.root, scenario)
 
     def remove(self) -> None:
         """Take everything from the screen."""

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .shapes import Mesh, lathe, merged, prism
+from geswarm.sim.footbot import RADIUS
 
-RADIUS = 0.085
-"""Of the body, m (foot-bot)."""
+from .shapes import Mesh, lathe, merged, prism
 
 HEIGHT = 0.146
 """From the ground to the top of the tower, m."""

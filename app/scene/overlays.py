@@ -9,12 +9,12 @@ import numpy.typing as npt
 import viser
 
 from geswarm.sim import Scenario
+from geswarm.sim.footbot import RADIUS
 
 from .. import palette
 from ..palette import Colour
 from ..state.trace import Trace, Trails
 from ..state.view import ArenaView, Shown
-from .footbot import RADIUS
 from .shapes import Mesh, annulus
 
 _ROOT = "/overlays"

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 import numpy.typing as npt
 import viser
+
+from geswarm.sim import Scenario
 
 from .. import palette
 from ..palette import Colour
@@ -35,44 +35,20 @@ _LETTERS_Z = 0.004
 _TABLE_TOP = -0.004
 
 
-class ArenaShape(Protocol):
-    """What is drawn of a scenario, all in metres: arena, depths of the zones, and the light."""
-
-    @property
-    def width(self) -> float:
-        """East to west."""
-
-    @property
-    def length(self) -> float:
-        """North to south."""
-
-    @property
-    def nest(self) -> float:
-        """Depth of the southern band."""
-
-    @property
-    def source(self) -> float:
-        """Depth of the northern band."""
-
-    @property
-    def light(self) -> float:
-        """From the north wall to the light."""
-
-
-def outer_points(shape: ArenaShape) -> npt.NDArray[np.float64]:
+def outer_points(scenario: Scenario) -> npt.NDArray[np.float64]:
     """Points that enclose all that must be in the picture, shape (n, 3), metres."""
-    east, north = shape.width / 2 + MARGIN, shape.length / 2 + MARGIN
+    east, north = scenario.width / 2 + MARGIN, scenario.length / 2 + MARGIN
     ground = [(x, y, z) for x in (-east, east) for y in (-north, north) for z in (0.0, 0.15)]
-    lamp = [(x, shape.length / 2 + LAMP_DISTANCE, LAMP_HEIGHT + 0.35) for x in (-0.3, 0.3)]
+    lamp = [(x, scenario.length / 2 + LAMP_DISTANCE, LAMP_HEIGHT + 0.35) for x in (-0.3, 0.3)]
     return np.array(ground + lamp)
 
 
-def draw_scenery(scene: viser.SceneApi, root: str, shape: ArenaShape) -> None:
+def draw_scenery(scene: viser.SceneApi, root: str, scenario: Scenario) -> None:
     """Draw everything that does not move, as children of the node `root`."""
-    east, north = shape.width / 2, shape.length / 2
-    nest_edge, source_edge = shape.nest - north, north - shape.source
+    east, north = scenario.width / 2, scenario.length / 2
+    nest_edge, source_edge = scenario.nest - north, north - scenario.source
     across = (-east, east)
-    stretch = _stretch(shape)
+    stretch = _stretch(scenario)
     _flat(scene, f"{root}/nest", rectangle(across, (-north, nest_edge)), palette.NEST)
     _flat(scene, f"{root}/source", rectangle(across, (source_edge, north)), palette.SOURCE)
     if source_edge > nest_edge:
@@ -81,13 +57,13 @@ def draw_scenery(scene: viser.SceneApi, root: str, shape: ArenaShape) -> None:
     _flat(scene, f"{root}/table", _table(east, north, stretch), _TABLE)
     _flat(scene, f"{root}/scale", _scale_bar(east, north), _MARKING)
     for word, colour, middle, depth in (
-        ("NEST", _NEST_TEXT, (nest_edge - north) / 2, shape.nest),
-        ("SOURCE", _SOURCE_TEXT, (source_edge + north) / 2, shape.source),
+        ("NEST", _NEST_TEXT, (nest_edge - north) / 2, scenario.nest),
+        ("SOURCE", _SOURCE_TEXT, (source_edge + north) / 2, scenario.source),
     ):
-        height = min(0.42 * stretch, 0.4 * depth, 0.7 * shape.width / text_width(word, 1.0))
+        height = min(0.42 * stretch, 0.4 * depth, 0.7 * scenario.width / text_width(word, 1.0))
         letters = painted(word, height).moved(y=middle, z=_LETTERS_Z * stretch)
         _flat(scene, f"{root}/{word.lower()}_label", letters, colour)
-    _draw_lamp(scene, f"{root}/light", north, shape.light)
+    _draw_lamp(scene, f"{root}/light", north, scenario.light)
 
 
 def draw_backdrop(scene: viser.SceneApi) -> None:
@@ -117,9 +93,9 @@ def _walls(east: float, north: float) -> Mesh:
     )
 
 
-def _stretch(shape: ArenaShape) -> float:
+def _stretch(scenario: Scenario) -> float:
     """How much larger than usual an arena is: seen from so far, thin layers would show through."""
-    return max(1.0, shape.width / 25.0, shape.length / 25.0)
+    return max(1.0, scenario.width / 25.0, scenario.length / 25.0)
 
 
 def _table(east: float, north: float, stretch: float) -> Mesh:

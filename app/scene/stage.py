@@ -6,12 +6,14 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from geswarm.sim import Scenario
+
 from ..state.session import Session
 from .arena import Arena
 from .cameraman import Cameraman
 from .overlays import Overlays
 from .pointer import Pointer
-from .scenery import LAMP_DISTANCE, MARGIN, ArenaShape, draw_backdrop, outer_points
+from .scenery import LAMP_DISTANCE, MARGIN, draw_backdrop, outer_points
 
 _TRAIL_SECONDS, _VISIT_SECONDS = 0.1, 0.5  # from one drawing to the next
 _APART = 0.35  # m between the tables of two arenas
@@ -83,9 +85,16 @@ class Stage:
 
     def _wanted_layout(self) -> tuple[object, ...]:
         """All that the scenery depends on."""
-        shape = self.session.scenario
+        scenario = self.session.scenario
         rival = self.session.rival is not None
-        return shape.width, shape.length, shape.nest, shape.source, shape.light, rival
+        return (
+            scenario.width,
+            scenario.length,
+            scenario.nest,
+            scenario.source,
+            scenario.light,
+            rival,
+        )
 
     def _draw(self) -> None:
         scenario, scene = self.session.scenario, self._server.scene
@@ -123,8 +132,8 @@ class Stage:
         return np.concatenate((points, points + np.array((*beside(scenario), 0.0))))
 
 
-def beside(shape: ArenaShape) -> tuple[float, float]:
+def beside(scenario: Scenario) -> tuple[float, float]:
     """Where the second arena is: to the right of the first, or below it if they are wide."""
-    if shape.width > 2.0 * shape.length:
-        return 0.0, -(1.5 * shape.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
-    return shape.width + 2 * MARGIN + _APART, 0.0
+    if scenario.width > 2.0 * scenario.length:
+        return 0.0, -(1.5 * scenario.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
+    return scenario.width + 2 * MARGIN + _APART, 0.0

@@ -12,7 +12,7 @@ from typing import Any
 from geswarm.analysis.reproduction import QUICK, Campaign, CampaignError, Plan
 from geswarm.analysis.reproduction.plan import PlanError
 from geswarm.analysis.reproduction.progress import works_of
-from geswarm.experiment import evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import load_preset
 from geswarm.sim import EvaluationStopped, load_scenario
 

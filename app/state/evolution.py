@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from enum import Enum
 from pathlib import Path
 
-from geswarm.experiment import EvolutionRun, InjectionError, RunConfig, evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
+from geswarm.evolution import EvolutionRun, InjectionError, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import EvaluationStopped, Scenario

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from geswarm.experiment import EvolutionRun, Population, RunConfig
+from geswarm.evolution import EvolutionRun, Population, RunConfig
 from geswarm.ge import (
     GenerationRecord,
     Injection,

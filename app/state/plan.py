@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from geswarm.experiment import Composition, InjectionError, RunConfig
+from geswarm.evolution import Composition, InjectionError, RunConfig
 from geswarm.ge import PRESETS, Settings, SettingsError
 from geswarm.rules import Rule, RuleSet
 from geswarm.sim import Scenario

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
-from geswarm.experiment import RunConfig, RunConfigError
+from geswarm.evolution import RunConfig, RunConfigError
 from geswarm.ge import RunStore, StoreError
 from geswarm.ge.database import require_run
 

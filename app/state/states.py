@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geswarm.exports import brief_svg
 from geswarm.rules import RuleSet, StateMachine
-from geswarm.rules.exports import brief_svg
 from geswarm.sim import World
 
 from .background import Newest, Stop
@@ -18,7 +18,7 @@ class DrawnMachine:
     Attributes:
         rule_set: What it was drawn for.
         machine: States and transitions.
-        svg: See `geswarm.rules.exports.brief_svg`.
+        svg: See `geswarm.exports.brief_svg`.
     """
 
     rule_set: RuleSet

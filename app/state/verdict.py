@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.analysis import PairedDifference, paired_difference
-from geswarm.experiment import evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import ControlTable, RuleSet, load_preset
 from geswarm.sim import EvaluationStopped, Scenario
 

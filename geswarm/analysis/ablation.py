@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias
 
 from geswarm.analysis.statistics import PairedDifference, paired_difference
-from geswarm.experiment import evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import RuleSet
 from geswarm.sim import Scenario
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from geswarm.analysis.statistics import Comparison, compare, holm
-from geswarm.experiment import Evaluation, evaluate_rule_sets
+from geswarm.evaluation import Evaluation, evaluate_rule_sets
 from geswarm.rules import RuleSet
 from geswarm.sim import Scenario
 

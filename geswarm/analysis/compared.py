@@ -89,7 +89,7 @@ class Compared:
         """A page that needs nothing else: box plots, the table, and the rules."""
         from geswarm.analysis.figures import box_plots
         from geswarm.analysis.page import figure_html, page, table_html
-        from geswarm.rules.exports import format_html
+        from geswarm.exports import format_html
 
         figure = box_plots(self.samples)
         figure.update_layout(width=1000, height=480)

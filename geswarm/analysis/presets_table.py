@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from geswarm.analysis.statistics import compare
-from geswarm.experiment import Evaluation, EvolutionRun, RunConfig, evaluate_rule_sets
+from geswarm.evaluation import Evaluation, evaluate_rule_sets
+from geswarm.evolution import EvolutionRun, RunConfig
 from geswarm.ge import PRESETS, RunStore, Settings
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import Scenario, load_scenario

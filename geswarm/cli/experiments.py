@@ -20,7 +20,7 @@ from geswarm.cli.stopping import compile_first
 
 if TYPE_CHECKING:
     from geswarm.analysis import Comparison
-    from geswarm.experiment import Evaluation
+    from geswarm.evaluation import Evaluation
 
 
 def add_experiment_verbs(verbs: Verbs) -> None:
@@ -38,7 +38,7 @@ def add_experiment_verbs(verbs: Verbs) -> None:
 
 def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.analysis import compare
-    from geswarm.experiment import evaluate_rule_sets
+    from geswarm.evaluation import evaluate_rule_sets
     from geswarm.rules import RuleSetError, load_rule_set
     from geswarm.sim import ScenarioError, load_scenario
 

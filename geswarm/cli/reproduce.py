@@ -62,8 +62,7 @@ def _reproduce(options: argparse.Namespace) -> int:
 
 def _carry_out(campaign: Campaign, options: argparse.Namespace, stop: threading.Event) -> int:
     from geswarm.analysis.reproduction import CampaignError
-    from geswarm.cluster import ClusterError, cluster_executor
-    from geswarm.experiment import EvaluationError
+    from geswarm.evolution import ClusterError, EvaluationError, cluster_executor
     from geswarm.ge import StoreError
     from geswarm.sim import EvaluationStopped
 

@@ -22,7 +22,7 @@ EXPORT_FORMS = (
 )  # fmt: skip
 
 # `SCHEMA_FILE` of the export, without importing it: help comes at once.
-_JSON_SCHEMA = Path(__file__).parents[1] / "rules" / "exports" / "rule-set.schema.json"
+_JSON_SCHEMA = Path(__file__).parents[1] / "exports" / "rule-set.schema.json"
 
 
 def add_rule_verbs(verbs: Verbs) -> None:
@@ -113,8 +113,8 @@ def _equal(options: argparse.Namespace) -> int:
 
 def _export(options: argparse.Namespace) -> int:
     """Exit 1 if `--strict` refuses; nothing is written then."""
+    from geswarm.exports import EXPORTS
     from geswarm.rules import RuleSetError, load_rule_set
-    from geswarm.rules.exports import EXPORTS
 
     for option, form in (
         ("scenario", "argos-lua"),
@@ -139,7 +139,7 @@ def _export(options: argparse.Namespace) -> int:
 
 def _automode_says_all(rule_set: RuleSet, options: argparse.Namespace) -> bool:
     """List on stderr what AutoMoDe cannot express; False if that is a reason to refuse."""
-    from geswarm.rules.exports import to_automode
+    from geswarm.exports import to_automode
 
     warnings = to_automode(rule_set).warnings
     severity = "error" if options.strict else "warning"
@@ -150,7 +150,7 @@ def _automode_says_all(rule_set: RuleSet, options: argparse.Namespace) -> bool:
 
 def _argos_files(rule_set: RuleSet, options: argparse.Namespace) -> dict[str | None, str]:
     """The controller script and, if asked for, the experiment and its floor beside it."""
-    from geswarm.rules.exports import format_argos_experiment, format_argos_lua, format_floor
+    from geswarm.exports import format_argos_experiment, format_argos_lua, format_floor
     from geswarm.sim import ScenarioError, load_scenario
 
     try:

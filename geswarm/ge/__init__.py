@@ -28,7 +28,7 @@ from geswarm.ge.engine import (
     State,
 )
 from geswarm.ge.evolve import Objective, Result, Stopped, evolve
-from geswarm.ge.grammar import Grammar, GrammarError, geswarm_grammar
+from geswarm.ge.grammar import Grammar, GrammarError
 from geswarm.ge.individual import Individual
 from geswarm.ge.inverse import NotASentenceError, genome_of
 from geswarm.ge.mapping import Derivation, Genome, Mapper
@@ -70,5 +70,4 @@ __all__ = [
     "StoredSteering",
     "evolve",
     "genome_of",
-    "geswarm_grammar",
 ]

@@ -12,7 +12,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
 from typing import TypeAlias
 
@@ -111,17 +110,6 @@ class Grammar:
     def choices(self, name: str) -> int:
         """How many alternatives a non-terminal has; a codon is read only for two or more."""
         return len(self.rules[name])
-
-
-def geswarm_grammar(vocabulary: Mapping[str, Sequence[str]]) -> Grammar:
-    """The GESwarm grammar (paper, section 2.2) over a vocabulary.
-
-    Args:
-        vocabulary: Words for `P_name` (preconditions), `B_name` (behaviours), `IS_name` (internal
-            states) and `value` (probabilities, as text).
-    """
-    text = resources.files("geswarm.ge").joinpath("geswarm.bnf").read_text(encoding="utf-8")
-    return Grammar.parse(text, source="geswarm.bnf", vocabulary=vocabulary)
 
 
 _NAME = r"<[A-Za-z_][\w.:-]*>"

@@ -5,7 +5,7 @@
             "actions": [{"p", "behaviour"} or {"p", "state", "value"}]}]}
 
 A file has `"schema": 1` beside these; whatever else it has is not read. The JSON Schema of files is
-`exports/rule-set.schema.json`.
+`geswarm/exports/rule-set.schema.json`.
 """
 
 from __future__ import annotations

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from geswarm.rules.elements import format_boolean, format_probability
-from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
+from geswarm.rules.model import (
+    CONTROL_STEP,
+    Action,
+    BehaviourChange,
+    Precondition,
+    Rule,
+    RuleSet,
+)
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-STEP_SECONDS = 0.1
-"""Length of a control step: ARGoS's foot-bot takes 10 in a second (paper, section 4)."""
 NEVER_SECONDS = 1e6
 """Longer mean waiting times are called never; the paper's runs last 5000 s."""
 
@@ -94,7 +99,7 @@ def _chance(p: float) -> str:
         return ""
     if not 0 < p < 1:
         return f" with probability {format_probability(p)} (never)"
-    seconds = STEP_SECONDS / p
+    seconds = CONTROL_STEP / p
     if seconds > NEVER_SECONDS:
         mean = "practically never"
     else:

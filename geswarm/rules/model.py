@@ -9,6 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from geswarm.rules.notebook import as_html
+
+CONTROL_STEP = 0.1
+"""How often robots go through their rules (s): the foot-bot's 10 times in a second (section 4)."""
+
 
 @dataclass(frozen=True)
 class Precondition:
@@ -109,6 +114,4 @@ class RuleSet:
 
     def _repr_html_(self) -> str:
         """How notebooks show it: like the paper's tables."""
-        from geswarm.rules.exports.html import format_html
-
-        return format_html(self)
+        return as_html(self)

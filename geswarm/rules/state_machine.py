@@ -26,8 +26,8 @@ import numpy.typing as npt
 
 from geswarm.rules.conditions import Condition, minimise
 from geswarm.rules.control_table import Indexing
-from geswarm.rules.english import STEP_SECONDS
-from geswarm.rules.model import RuleSet
+from geswarm.rules.model import CONTROL_STEP, RuleSet
+from geswarm.rules.notebook import as_html
 from geswarm.rules.reachability import TOLERANCE, Trace, effective_outcomes
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -88,7 +88,7 @@ class Transition:
     @property
     def mean_wait(self) -> float:
         """Mean time until it happens while the condition holds (s)."""
-        return STEP_SECONDS / self.probability
+        return CONTROL_STEP / self.probability
 
     @property
     def rate(self) -> str:
@@ -246,9 +246,7 @@ class StateMachine:
 
     def _repr_html_(self) -> str:
         """How notebooks show it: as a picture."""
-        from geswarm.rules.exports.svg import machine_svg
-
-        return machine_svg(self)
+        return as_html(self)
 
 
 class _Reader:

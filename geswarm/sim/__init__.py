@@ -28,8 +28,8 @@ PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
 600.0
 """
 
-from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, evaluate
-from geswarm.sim.footbot import CONTROL_STEP
+from geswarm.rules.model import CONTROL_STEP
+from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, evaluate
 from geswarm.sim.scenario import (
     Scenario,
     ScenarioError,
@@ -48,6 +48,7 @@ __all__ = [
     "Scenario",
     "ScenarioError",
     "Simulation",
+    "Stop",
     "World",
     "WorldState",
     "evaluate",

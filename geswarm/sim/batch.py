@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.control_table import ControlTable
+from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
 from geswarm.sim.compiled import run_lanes, run_simulation, start_lanes, start_world
 from geswarm.sim.encoding import (
@@ -147,11 +148,11 @@ def runs_side_by_side(scenario: Scenario) -> bool:
         2.0 * scenario.max_speed / footbot.WHEEL_BASE,
     )
     extent = max(scenario.width, scenario.length)
-    advance = scenario.max_speed * footbot.CONTROL_STEP
+    advance = scenario.max_speed * CONTROL_STEP
     return bool(
         scenario.robots <= _ROBOTS_SIDE_BY_SIDE
         and scenario.objects <= _OBJECTS_SIDE_BY_SIDE
-        and turn * footbot.CONTROL_STEP <= np.pi / 2.0  # for which its sine is good
+        and turn * CONTROL_STEP <= np.pi / 2.0  # for which its sine is good
         and advance >= extent / 2.0**15  # a thousand times what positions are rounded to
     )
 

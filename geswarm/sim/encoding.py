@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.control_table import ControlTable
-from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.model import CONTROL_STEP, Action, BehaviourChange, Rule, RuleSet
 from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim import footbot
@@ -47,7 +47,7 @@ def encode_scenario(scenario: Scenario) -> Physics:
         avoidance_gain=scenario.avoidance_gain,
         radius=footbot.RADIUS,
         wheel_base=footbot.WHEEL_BASE,
-        control_step=footbot.CONTROL_STEP,
+        control_step=CONTROL_STEP,
     )
 
 
@@ -80,7 +80,7 @@ class Room(NamedTuple):
 def room_for(scenario: Scenario) -> Room:
     """Room for one simulation, to be filled by a kernel."""
     large = scenario.robots > _ALL_PAIRS_UP_TO
-    touch = 2.0 * (footbot.RADIUS + scenario.max_speed * footbot.CONTROL_STEP)
+    touch = 2.0 * (footbot.RADIUS + scenario.max_speed * CONTROL_STEP)
     sight = max(scenario.rab_range, 2.0 * touch)
     columns, rows = _grid(scenario.width, scenario.length, sight, 4 * scenario.robots)
     source_columns, source_rows = _grid(

@@ -5,6 +5,3 @@ RADIUS = 0.085
 
 WHEEL_BASE = 0.14
 """Distance between the wheels (m)."""
-
-CONTROL_STEP = 0.1
-"""Length of a control step (s)."""

@@ -10,9 +10,9 @@ from typing import Any
 import yaml
 
 from geswarm.rules.findings import Finding, Place
-from geswarm.rules.model import clean_line
+from geswarm.rules.model import CONTROL_STEP, clean_line
 from geswarm.rules.names import unknown_name
-from geswarm.sim import footbot, scenario_file
+from geswarm.sim import scenario_file
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
 
 __all__ = ["Scenario", "ScenarioError", "load_scenario", "parse_scenario", "scenario_names"]
@@ -82,7 +82,7 @@ class Scenario:
     @property
     def steps(self) -> int:
         """Number of control steps of a run."""
-        return round(self.duration / footbot.CONTROL_STEP)
+        return round(self.duration / CONTROL_STEP)
 
     def with_changes(self, **changes: Any) -> Scenario:
         """The same scenario with some attributes changed.

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from geswarm.rules.findings import Finding
+from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
 
 
@@ -50,7 +51,7 @@ _LEAST = 1e-6
 PARAMETERS: Mapping[str, Parameter] = {
     "robots": Parameter(int, 1, 200_000),
     "objects": Parameter(int, 1, 200_000),
-    "duration": Parameter(float, footbot.CONTROL_STEP, 1e7, " s"),
+    "duration": Parameter(float, CONTROL_STEP, 1e7, " s"),
     "width": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "length": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "nest": Parameter(float, 0, 1e4, " m", above=True),

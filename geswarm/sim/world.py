@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.control_table import Indexing
-from geswarm.rules.model import RuleSet
+from geswarm.rules.model import CONTROL_STEP, RuleSet
 from geswarm.rules.vocabulary import FORAGING
-from geswarm.sim import footbot
 from geswarm.sim.compiled import run_world, start_world
 from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
 from geswarm.sim.kernels.state import COLLECTED, LOST, PICKED
@@ -66,7 +65,7 @@ class WorldState:
     @property
     def time(self) -> float:
         """Simulated time since the start (s)."""
-        return self.steps * footbot.CONTROL_STEP
+        return self.steps * CONTROL_STEP
 
 
 class World:
@@ -114,7 +113,7 @@ class World:
     @property
     def time(self) -> float:
         """Simulated time since the start (s)."""
-        return self._steps * footbot.CONTROL_STEP
+        return self._steps * CONTROL_STEP
 
     @property
     def picked(self) -> int:

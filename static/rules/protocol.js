@@ -71,7 +71,7 @@
  *
  * @typedef {object} StatesMessage
  * @property {"states"} type
- * @property {string} svg Drawn by geswarm.rules.exports.brief_svg.
+ * @property {string} svg Drawn by geswarm.exports.brief_svg.
  * @property {MachineState[]} states
  * @property {Transition[]} transitions
  *

@@ -7,7 +7,7 @@ import pytest
 
 import geswarm.analysis
 from geswarm.analysis.cases import Case, contrasts, run_cases
-from geswarm.experiment import Evaluation, evaluate_rule_sets
+from geswarm.evaluation import Evaluation, evaluate_rule_sets
 from geswarm.rules import load_preset
 from geswarm.sim import EvaluationStopped, load_scenario
 

@@ -5,7 +5,7 @@ import numpy as np
 from geswarm.analysis.cases import Case
 from geswarm.analysis.figures import best_so_far, box_plots, sensitivity_curves
 from geswarm.analysis.page import page, table_html
-from geswarm.experiment import Evaluation
+from geswarm.evaluation import Evaluation
 from geswarm.sim import load_scenario
 
 PAPER = load_scenario("paper")

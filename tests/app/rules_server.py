@@ -15,6 +15,7 @@ import geswarm
 from geswarm.app.panels import rule_messages
 from geswarm.app.state.document import RuleDocument
 from geswarm.app.state.states import DrawnMachine
+from geswarm.exports import brief_svg
 from geswarm.rules import (
     FORAGING,
     EditError,
@@ -30,7 +31,6 @@ from geswarm.rules import (
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
-from geswarm.rules.exports import brief_svg
 
 STATIC = Path(geswarm.__file__).resolve().parent.parent / "static"
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src *"

@@ -12,7 +12,7 @@ from geswarm.app.server.access import Access
 from geswarm.app.server.gate import open_server
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.session import Session
-from geswarm.experiment import ForagingFitness
+from geswarm.evolution import ForagingFitness
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
 

@@ -20,7 +20,7 @@ from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.rival import CHOSEN
 from geswarm.app.state.runs import MOST_COMPARED
 from geswarm.app.state.session import Session
-from geswarm.experiment import ForagingFitness
+from geswarm.evolution import ForagingFitness
 from geswarm.ge import Settings, StoredIndividual
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario

@@ -17,7 +17,7 @@ from geswarm.app.server.gate import open_server
 from geswarm.app.state.campaign_folder import CampaignFolder
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.session import Session
-from geswarm.experiment import evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import format_text, load_preset, save_rule_set
 from geswarm.sim import EvaluationStopped, load_scenario
 from tests.app.experiments_campaign import finished_campaign

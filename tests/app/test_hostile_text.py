@@ -19,10 +19,10 @@ from geswarm.app.panels.swarm_panel import score_html
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.journal import Journal, journal_directory
 from geswarm.app.state.session import Session
-from geswarm.experiment import EvolutionRun, RunConfig
+from geswarm.evolution import EvolutionRun, RunConfig
+from geswarm.exports import format_html, format_markdown, format_svg
 from geswarm.ge import Settings
 from geswarm.rules import RuleSet, format_yaml, parse_text
-from geswarm.rules.exports import format_html, format_markdown, format_svg
 from geswarm.sim import load_scenario
 
 IMAGE = '<img src=x onerror="top.ran=1">'

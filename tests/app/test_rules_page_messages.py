@@ -2,8 +2,8 @@
 
 import pytest
 
+from geswarm.exports import EXPORTS
 from geswarm.rules import Rule, RuleSet, load_preset, parse_yaml
-from geswarm.rules.exports import EXPORTS
 from tests.app.rules_browser import choose, expect, page_fixture, sees_edit, server_fixture
 from tests.app.rules_server import RulesServer
 

@@ -4,7 +4,7 @@ import pytest
 
 from geswarm.rules import Rule, RuleSet, load_preset, parse_text
 from tests.app.rules_browser import expect, page_fixture, server_fixture
-from tests.rules.test_exports import CROWDED
+from tests.exports.test_exports import CROWDED
 
 __all__ = ["page_fixture", "server_fixture"]
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

@@ -6,7 +6,7 @@ import sqlite3
 import pytest
 
 from geswarm.app.state.run_folder import RunError, RunFolder
-from geswarm.experiment import EvolutionRun, RunConfig
+from geswarm.evolution import EvolutionRun, RunConfig
 from geswarm.ge import Settings
 from geswarm.sim import load_scenario
 

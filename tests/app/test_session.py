@@ -11,7 +11,7 @@ from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.playback import Playback
 from geswarm.app.state.session import Session
 from geswarm.app.state.view import between
-from geswarm.experiment import RunConfig
+from geswarm.evolution import RunConfig
 from geswarm.ge import Settings
 from geswarm.rules import EditError, RuleSetError, format_yaml, load_preset
 from geswarm.sim import load_scenario

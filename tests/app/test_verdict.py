@@ -8,7 +8,7 @@ import pytest
 from geswarm.app.state.background import Newest
 from geswarm.app.state.verdict import RUNS, Question, Verdict
 from geswarm.app.state.worth import WorthOfPieces, WorthQuestion
-from geswarm.experiment import evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import apply_edit, load_preset
 from geswarm.sim import load_scenario
 

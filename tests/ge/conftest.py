@@ -1,6 +1,7 @@
 import pytest
 
-from geswarm.ge.grammar import Grammar, geswarm_grammar
+from geswarm.evolution.grammar import geswarm_grammar
+from geswarm.ge.grammar import Grammar
 from geswarm.ge.mapping import Mapper
 
 VOCABULARY = {

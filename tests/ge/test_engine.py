@@ -3,9 +3,10 @@ import random
 
 import pytest
 
+from geswarm.evolution.grammar import geswarm_grammar
 from geswarm.ge.engine import CallOrderError, CheckpointError, Engine, FitnessError
 from geswarm.ge.evolve import Stopped, evolve
-from geswarm.ge.grammar import Grammar, geswarm_grammar
+from geswarm.ge.grammar import Grammar
 from geswarm.ge.settings import Settings, SettingsError
 
 SMALL = Settings(population=20, generations=12)

@@ -1,6 +1,7 @@
 import pytest
 
-from geswarm.ge.grammar import Grammar, GrammarError, NonTerminal, geswarm_grammar
+from geswarm.evolution.grammar import geswarm_grammar
+from geswarm.ge.grammar import Grammar, GrammarError, NonTerminal
 
 
 def findings(text, vocabulary=None):

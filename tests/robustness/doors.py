@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from geswarm.app.panels.scenario_panel import VALUES
 from geswarm.app.server.channel import MessageError, parse_message
-from geswarm.experiment import RunConfig, RunConfigError
+from geswarm.evolution import RunConfig, RunConfigError
 from geswarm.ge import Grammar, GrammarError, Mapper, Settings
 from geswarm.rules import (
     FORMATS,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from geswarm.experiment import EvolutionRun, RunConfig, foraging_grammar
+from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
 from geswarm.ge import Engine, Settings, StoreError
 from geswarm.ge.engine import CheckpointError
 from geswarm.rules import FORMATS, RuleSetError, load_rule_set
@@ -168,7 +168,7 @@ def row_changes(rng):
 
 def checkpoint(state):
     """A state of an engine; one that is taken must be good for a generation."""
-    engine = Engine.restore(foraging_grammar(), SETTINGS, 3, state)
+    engine = Engine.restore(rule_grammar(), SETTINGS, 3, state)
     engine.tell([1.0] * len(engine.ask()))
     json.dumps(engine.state(), allow_nan=False)
 

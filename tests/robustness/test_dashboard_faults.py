@@ -10,7 +10,7 @@ import pytest
 from websockets.sync.client import connect
 
 from geswarm.app.main import main
-from geswarm.experiment import EvolutionRun, RunConfig
+from geswarm.evolution import EvolutionRun, RunConfig
 from tests.app.test_faults import PATIENCE, address, ends, receive, say, started
 from tests.app.test_headless import outcome
 from tests.robustness.test_faults import fill, small_disk

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from geswarm.experiment import EvolutionRun, evaluate_rule_sets
+from geswarm.evaluation import evaluate_rule_sets
+from geswarm.evolution import EvolutionRun
 from geswarm.ge import Injection, SettingsChange, StoreError
 from geswarm.rules import RuleSetError, load_preset, load_rule_set, same_behaviour
 from geswarm.sim import load_scenario

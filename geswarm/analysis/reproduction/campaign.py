@@ -23,7 +23,7 @@ from geswarm.analysis.reproduction.progress import Meter, OnProgress, Part, work
 from geswarm.analysis.reproduction.report import files_of
 from geswarm.analysis.reproduction.results import Results, best_of, format_samples, parse_samples
 from geswarm.analysis.reproduction.studies import EVO_8, HAND_CODED, evolved_name
-from geswarm.experiment import EvolutionRun
+from geswarm.evolution import EvolutionRun
 from geswarm.ge import GenerationRecord
 from geswarm.rules import RuleSet, load_preset
 from geswarm.rules.library import write_whole

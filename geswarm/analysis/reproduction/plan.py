@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields
 import yaml
 
 from geswarm import __version__
-from geswarm.experiment import RunConfig
+from geswarm.evolution import RunConfig
 from geswarm.ge import Settings
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.sim import load_scenario

@@ -30,8 +30,8 @@ from geswarm.analysis.reproduction.studies import (
     argos,
     argos_over_zone_miss,
 )
+from geswarm.exports import format_html
 from geswarm.rules import format_yaml
-from geswarm.rules.exports import format_html
 from geswarm.sim import load_scenario
 
 _EVOLVED = "#8fc9b4"

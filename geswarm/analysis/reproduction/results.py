@@ -11,7 +11,7 @@ import numpy as np
 
 from geswarm.analysis.cases import Case, Samples
 from geswarm.analysis.reproduction.plan import Plan
-from geswarm.experiment import Evaluation
+from geswarm.evaluation import Evaluation
 from geswarm.ge import GenerationRecord
 from geswarm.rules import RuleSet
 

@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 from geswarm.analysis.cases import Case, Samples
-from geswarm.experiment import Evaluation
+from geswarm.evaluation import Evaluation
 from geswarm.sim import Scenario, load_scenario
 
 HAND_CODED, EVO_8 = "hand-coded", "EVO 8"

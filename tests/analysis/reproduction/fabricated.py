@@ -3,7 +3,7 @@
 import numpy as np
 
 from geswarm.analysis.reproduction import Plan, Results, studies
-from geswarm.experiment import Evaluation
+from geswarm.evaluation import Evaluation
 from geswarm.ge import GenerationRecord
 from geswarm.rules import load_preset, parse_text
 

@@ -12,7 +12,7 @@ import pytest
 from geswarm.analysis.reproduction import Campaign, CampaignError, Plan, Verdict
 from geswarm.cli import main
 from geswarm.cli.reproduce import _duration
-from geswarm.experiment import EvolutionRun
+from geswarm.evolution import EvolutionRun
 from geswarm.rules import load_rule_set
 from geswarm.sim import EvaluationStopped
 
@@ -168,7 +168,7 @@ def test_another_campaign_is_refused(tmp_path, arguments, message, capsys):
 
 
 def test_no_scheduler_is_one_clear_message(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("geswarm.cluster._PATIENCE", 0.2)
+    monkeypatch.setattr("geswarm.evolution.cluster._PATIENCE", 0.2)
     assert main([*ask(tmp_path / "tiny"), "--cluster", "tcp://127.0.0.1:9"]) == 2
     error = capsys.readouterr().err
     assert "tcp://127.0.0.1:9: expected a Dask scheduler" in error or "pip install" in error

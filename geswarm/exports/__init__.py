@@ -1,7 +1,7 @@
 """Rule sets in the forms in which people use them elsewhere: papers, ARGoS, AutoMoDe, pictures.
 
 >>> from geswarm.rules import load_rule_set
->>> from geswarm.rules.exports import EXPORTS
+>>> from geswarm.exports import EXPORTS
 >>> print(EXPORTS["english"](load_rule_set("hand-coded")).splitlines()[3])
 R1. When away from the source and not holding an object, go to the light.
 """
@@ -9,18 +9,19 @@ R1. When away from the source and not holding an object, go to the light.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import singledispatch
 
-from geswarm.rules.exports.argos_experiment import format_argos_experiment, format_floor
-from geswarm.rules.exports.argos_lua import format_argos_lua
-from geswarm.rules.exports.automode import AutoMoDe, format_automode, to_automode
-from geswarm.rules.exports.dot import format_dot
-from geswarm.rules.exports.html import format_html
-from geswarm.rules.exports.json_document import format_json_document, machine_to_json
-from geswarm.rules.exports.latex import format_latex
-from geswarm.rules.exports.mermaid import format_mermaid
-from geswarm.rules.exports.prose import format_english, format_markdown
-from geswarm.rules.exports.svg import brief_svg, format_svg, machine_svg
-from geswarm.rules.model import RuleSet
+from geswarm.exports.argos_experiment import format_argos_experiment, format_floor
+from geswarm.exports.argos_lua import format_argos_lua
+from geswarm.exports.automode import AutoMoDe, format_automode, to_automode
+from geswarm.exports.dot import format_dot
+from geswarm.exports.html import format_html
+from geswarm.exports.json_document import format_json_document, machine_to_json
+from geswarm.exports.latex import format_latex
+from geswarm.exports.mermaid import format_mermaid
+from geswarm.exports.prose import format_english, format_markdown
+from geswarm.exports.svg import brief_svg, format_svg, machine_svg
+from geswarm.rules import RuleSet, StateMachine
 from geswarm.rules.text import format_text
 from geswarm.rules.yaml_form import format_yaml
 
@@ -38,9 +39,20 @@ EXPORTS: dict[str, Callable[[RuleSet], str]] = {
 }
 """Everything that needs the rule set alone; `format_argos_lua` needs a scenario, too."""
 
+
+@singledispatch
+def as_html(value: object) -> str:
+    """How a notebook shows a rule set (as a table) or a state machine (as a picture)."""
+    raise TypeError(f"expected a rule set or a state machine, got {type(value).__name__}")
+
+
+as_html.register(RuleSet, format_html)
+as_html.register(StateMachine, machine_svg)
+
 __all__ = [
     "EXPORTS",
     "AutoMoDe",
+    "as_html",
     "brief_svg",
     "format_argos_experiment",
     "format_argos_lua",

@@ -9,16 +9,15 @@ import pytest
 import yaml
 from hypothesis import given
 
-from geswarm.experiment import (
+from geswarm.evaluation import Evaluation, evaluate_rule_sets
+from geswarm.evolution import (
     Composition,
-    Evaluation,
     EvolutionRun,
     ForagingFitness,
     InjectionError,
     RunConfig,
     RunConfigError,
-    evaluate_rule_sets,
-    foraging_grammar,
+    rule_grammar,
 )
 from geswarm.ge import Engine, Mapper, Settings, StoreError, genome_of
 from geswarm.ge.ranking import CODON_COST
@@ -51,14 +50,14 @@ def as_phenotype(rule_set):
 
 @given(plain_rule_sets())
 def test_any_rule_set_of_the_grammar_has_a_genome_that_maps_back_to_it(rule_set):
-    grammar = foraging_grammar()
+    grammar = rule_grammar()
     genome = genome_of(grammar, as_phenotype(rule_set))
     phenotype, _ = Mapper(grammar).map(genome, 0)
     assert parse_text(phenotype) == rule_set
 
 
 def test_every_initial_phenotype_is_a_rule_set():
-    individuals = Engine(foraging_grammar(), Settings(), seed=1).ask()
+    individuals = Engine(rule_grammar(), Settings(), seed=1).ask()
     for individual in individuals:
         rule_set = parse_text(individual.phenotype)
         assert rule_set.rules
@@ -145,7 +144,7 @@ def test_a_stop_within_a_generation_loses_only_that_one(tmp_path):
 
 
 def test_fitness_is_the_mean_of_the_evaluations():
-    engine = Engine(foraging_grammar(), SMALL, seed=2)
+    engine = Engine(rule_grammar(), SMALL, seed=2)
     individuals = engine.ask()
     together = ForagingFitness(QUICK, 2, 3)(1, individuals)
     alone = [ForagingFitness(QUICK, 2, 3)(1, [one])[0] for one in individuals]

@@ -8,10 +8,10 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 
+from geswarm.exports import format_latex
 from geswarm.rules import Rule, RuleSet, load_preset
-from geswarm.rules.exports import format_latex
 from tests import strategies
-from tests.rules.test_exports import EVO8, HAND_CODED, NASTY
+from tests.exports.test_exports import EVO8, HAND_CODED, NASTY
 
 LATEX_COMMANDS = set(re.findall(r"\w+", """
     documentclass usepackage begin end centering hline multicolumn textwidth raggedright textit

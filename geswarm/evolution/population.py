@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from geswarm.fitness import Composition
+from geswarm.evolution.composition import Composition
 from geswarm.ge import Individual
 from geswarm.rules import RuleSet
 

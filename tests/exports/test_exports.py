@@ -9,7 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.fitness import foraging_grammar
+from geswarm.evolution import rule_grammar
+from geswarm.exports import (
+    EXPORTS,
+    format_argos_experiment,
+    format_floor,
+    format_markdown,
+    to_automode,
+)
+from geswarm.exports.automode import _drawn_in_random_order
 from geswarm.ge import Mapper
 from geswarm.rules import (
     BehaviourChange,
@@ -24,14 +32,6 @@ from geswarm.rules import (
     save_rule_set,
 )
 from geswarm.rules.as_json import format_json, rule_from_json
-from geswarm.rules.exports import (
-    EXPORTS,
-    format_argos_experiment,
-    format_floor,
-    format_markdown,
-    to_automode,
-)
-from geswarm.rules.exports.automode import _drawn_in_random_order
 from geswarm.sim import load_scenario
 from tests import strategies
 
@@ -58,7 +58,7 @@ def test_what_carries_enough_comes_back(rule_set):
 
 def test_forty_messy_rules_come_back_from_json():
     """Their state machine has hundreds of transitions, and files may be only so long."""
-    mapper, rng = Mapper(foraging_grammar()), np.random.default_rng(3)
+    mapper, rng = Mapper(rule_grammar()), np.random.default_rng(3)
     rules = []
     while len(rules) < 40:
         phenotype = mapper.map(rng.integers(0, 2**31, 200).tolist()).phenotype

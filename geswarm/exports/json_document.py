@@ -10,8 +10,7 @@ import json
 from pathlib import Path
 
 from geswarm.rules.as_json import SCHEMA, Json, rule_set_to_json
-from geswarm.rules.english import STEP_SECONDS
-from geswarm.rules.model import RuleSet
+from geswarm.rules.model import CONTROL_STEP, RuleSet
 from geswarm.rules.state_machine import StateMachine, Transition
 
 SCHEMA_FILE = Path(__file__).parent / "rule-set.schema.json"
@@ -45,7 +44,7 @@ def _lines(values: list[Json]) -> str:
 def machine_to_json(machine: StateMachine) -> dict[str, Json]:
     """A state machine as plain JSON values."""
     return {
-        "step_seconds": STEP_SECONDS,
+        "step_seconds": CONTROL_STEP,
         "states": [
             {
                 "behaviour": state.behaviour,

@@ -1,140 +1,25 @@
-"""What a phenotype is worth: the objects that a swarm under its rules collects.
-
-genome --mapping--> phenotype text --parse--> RuleSet --compile--> ControlTable --> collected
-"""
+"""What a phenotype is worth: the objects that a swarm under its rules collects."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor, wait
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from geswarm import __version__
-from geswarm.ge import (
-    Grammar,
-    Individual,
-    NotASentenceError,
-    Stopped,
-    genome_of,
-    geswarm_grammar,
-)
-from geswarm.rules import (
-    FORAGING,
-    ControlTable,
-    Rule,
-    RuleSet,
-    Vocabulary,
-    format_text,
-    parse_text,
-)
-from geswarm.rules.elements import format_probability
-from geswarm.rules.reachability import reachable_situations
-from geswarm.sim import EvaluationStopped, Scenario, Simulation, evaluate
-
-Stop = Callable[[], bool]
+from geswarm.evolution.composition import Composition
+from geswarm.ge import Individual, Stopped
+from geswarm.sim import EvaluationStopped, Scenario, Simulation, Stop, evaluate
 
 _SHARE_ROBOT_STEPS = 8_000_000  # what is sent to an executor at once: a fraction of a second's work
 _PATIENCE = 0.2  # seconds between two looks at `stop` while an executor works
 
 
-class InjectionError(ValueError):
-    """A rule set cannot enter a population; says which rule and why."""
-
-
 class EvaluationError(RuntimeError):
     """An executor could not do its work; the generation at work is lost, no more."""
-
-
-def foraging_grammar(vocabulary: Vocabulary = FORAGING) -> Grammar:
-    """The paper's grammar over a vocabulary: its sentences are rule sets."""
-    return geswarm_grammar(
-        {
-            "P_name": list(vocabulary.precondition_index),
-            "B_name": list(vocabulary.behaviour_index),
-            "IS_name": list(vocabulary.state_index),
-            "value": [format_probability(p) for p in vocabulary.probabilities],
-        }
-    )
-
-
-@dataclass(frozen=True)
-class Composition:
-    """From phenotypes to rule sets: rules that evolution must not change, then the evolved ones.
-
-    Attributes:
-        frozen: The rules that come first; usually none.
-    """
-
-    frozen: tuple[Rule, ...] = ()
-
-    def rule_set(self, phenotype: str) -> RuleSet:
-        """The whole rule set."""
-        return RuleSet((*self.frozen, *parse_text(phenotype).rules))
-
-    def phenotype(self, rule_set: RuleSet) -> str:
-        """The phenotype that becomes a rule set; rules that are switched off are left out.
-
-        Raises:
-            InjectionError: It does not begin with the frozen rules, has none besides them, or the
-                grammar does not derive the others: says which rule and why.
-        """
-        rules = tuple(map(_bare, rule_set.active_rules))
-        frozen = len(self.frozen)
-        for number, (rule, expected) in enumerate(zip(rules, self.frozen, strict=False), start=1):
-            if rule != _bare(expected):
-                raise InjectionError(f"rule {number} is frozen, expected it unchanged")
-        if len(rules) <= frozen:
-            raise InjectionError(f"expected more than {frozen} rules switched on, got {len(rules)}")
-        for number, rule in enumerate(rules[frozen:], start=frozen + 1):
-            for action in rule.actions:
-                _require_listed(action.p, number)
-        text = format_text(RuleSet(rules[frozen:])).removeprefix('name ""')
-        phenotype = " ".join(text.split())
-        try:
-            genome_of(foraging_grammar(), phenotype)
-        except NotASentenceError as error:
-            raise InjectionError(f"the grammar does not derive these rules: {error}") from error
-        return phenotype
-
-    def behaviour(self, phenotype: str) -> bytes:
-        """Equal for phenotypes under which robots decide the same: an engine's `identity`.
-
-        The control table in the situations that robots can get into, to twelve decimals.
-        """
-        return _behaviour(self, phenotype)
-
-
-def _require_listed(p: float, rule: int) -> None:
-    listed = FORAGING.probabilities
-    if p not in listed:
-        nearest = format_probability(min(listed, key=lambda one: abs(one - p)))
-        raise InjectionError(
-            f"rule {rule}: p = {format_probability(p)} cannot evolve, expected one of "
-            f"{', '.join(map(format_probability, listed))}; the nearest is {nearest}"
-        )
-
-
-def _bare(rule: Rule) -> Rule:
-    return replace(rule, comment="", enabled=True)
-
-
-@lru_cache(maxsize=1024)
-def _table(composition: Composition, phenotype: str) -> ControlTable:
-    return ControlTable.compile(composition.rule_set(phenotype))
-
-
-@lru_cache(maxsize=4096)
-def _behaviour(composition: Composition, phenotype: str) -> bytes:
-    table = _table(composition, phenotype)
-    indexing = table.indexing
-    shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
-    decisions = table.probabilities.reshape(shape).round(12)
-    reachable = reachable_situations(decisions, table.vocabulary)
-    return np.packbits(reachable).tobytes() + (decisions[reachable] + 0.0).tobytes()
 
 
 @dataclass(frozen=True)
@@ -188,7 +73,7 @@ class ForagingFitness:
         return [float(mean) for mean in per_individual.mean(axis=1)]
 
     def _here(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.int64]:
-        tables = [_table(self.composition, phenotype) for phenotype in phenotypes]
+        tables = [self.composition.table(phenotype) for phenotype in phenotypes]
         try:
             result = evaluate(tables, self.scenario, todo, workers=self.workers, stop=self.stop)
         except EvaluationStopped as error:
@@ -252,5 +137,5 @@ def simulate_share(
     """
     if version != __version__:
         raise RuntimeError(f"expected GESwarm {version} on every worker, found {__version__}")
-    tables = [_table(composition, phenotype) for phenotype in phenotypes]
+    tables = [composition.table(phenotype) for phenotype in phenotypes]
     return evaluate(tables, scenario, simulations, workers=1).collected

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 
-from geswarm.rules.exports.layout import label_lines
-from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
+from geswarm.exports.layout import label_lines
+from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 
 from geswarm.app import palette
+from geswarm.exports import EXPORTS, brief_svg, machine_svg
+from geswarm.exports.geometry import Box
+from geswarm.exports.layout import BRIEF, FULL, lay_out
+from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules import RuleSet, StateMachine, load_preset
-from geswarm.rules.exports import EXPORTS, brief_svg, machine_svg
-from geswarm.rules.exports.geometry import Box
-from geswarm.rules.exports.layout import BRIEF, FULL, lay_out
-from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
 from tests import strategies
-from tests.rules.test_exports import CROWDED, EVO8, HAND_CODED, NASTY
+from tests.exports.test_exports import CROWDED, EVO8, HAND_CODED, NASTY
 
 SVG = "{http://www.w3.org/2000/svg}"
 

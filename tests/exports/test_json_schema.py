@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given, settings
 
 from geswarm.cli import main
+from geswarm.exports import EXPORTS
+from geswarm.exports.json_document import SCHEMA_FILE
 from geswarm.rules import (
     FORAGING,
     RuleSet,
@@ -16,10 +18,8 @@ from geswarm.rules import (
     preset_names,
     read_rule_set,
 )
-from geswarm.rules.exports import EXPORTS
-from geswarm.rules.exports.json_document import SCHEMA_FILE
 from tests import strategies
-from tests.rules.test_exports import CROWDED
+from tests.exports.test_exports import CROWDED
 
 SCHEMA = json.loads(SCHEMA_FILE.read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)

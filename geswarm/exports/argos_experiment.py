@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Protocol
 from xml.sax.saxutils import quoteattr
 
-from geswarm.rules.exports.argos_lua import FootBotParameters
+from geswarm.sim import CONTROL_STEP, Scenario, footbot
 
-_RADIUS, _WALL, _WALL_HEIGHT, _SKY = 0.085, 0.1, 0.1, 2.0  # m
+_WALL, _WALL_HEIGHT, _SKY = 0.1, 0.1, 2.0  # m
 _PIXELS_PER_METRE = 100
-_STEPS_PER_SECOND = 10
+_STEPS_PER_SECOND = round(1 / CONTROL_STEP)
 _STEEPNESS = 2.0
 """Height of the light per distance: steep enough that neither walls nor robots cast shadows."""
 _BRIGHTNESS = 10.0
@@ -22,39 +21,7 @@ _BRIGHTNESS = 10.0
 _WHITE, _GREY, _BLACK = 255, 128, 0
 
 
-class ArgosScenario(FootBotParameters, Protocol):
-    """What the experiment has to know of a scenario; every `geswarm.sim.Scenario` fits."""
-
-    @property
-    def robots(self) -> int:
-        """Number of robots."""
-
-    @property
-    def duration(self) -> float:
-        """Length of a run (s)."""
-
-    @property
-    def width(self) -> float:
-        """Extent of the arena from west to east (m)."""
-
-    @property
-    def length(self) -> float:
-        """Extent of the arena from south to north (m)."""
-
-    @property
-    def nest(self) -> float:
-        """Depth of the nest, a band along the south wall (m)."""
-
-    @property
-    def source(self) -> float:
-        """Depth of the source, a band along the north wall (m)."""
-
-    @property
-    def light(self) -> float:
-        """Distance of the light from the north wall, northwards (m)."""
-
-
-def format_argos_experiment(scenario: ArgosScenario, script: str, floor: str, seed: int = 1) -> str:
+def format_argos_experiment(scenario: Scenario, script: str, floor: str, seed: int = 1) -> str:
     """The configuration (XML).
 
     Args:
@@ -66,7 +33,7 @@ def format_argos_experiment(scenario: ArgosScenario, script: str, floor: str, se
     return "\n".join(_lines(scenario, script, floor, seed)) + "\n"
 
 
-def format_floor(scenario: ArgosScenario) -> str:
+def format_floor(scenario: Scenario) -> str:
     """The picture of the floor (PPM, one column): nest white, source black, all else grey."""
     extent = scenario.length + 2 * _WALL
     rows = max(1, round(extent * _PIXELS_PER_METRE))
@@ -81,7 +48,7 @@ def format_floor(scenario: ArgosScenario) -> str:
     return "\n".join([f"P3\n1 {rows}\n255", *pixels]) + "\n"
 
 
-def _lines(scenario: ArgosScenario, script: str, floor: str, seed: int) -> Iterator[str]:
+def _lines(scenario: Scenario, script: str, floor: str, seed: int) -> Iterator[str]:
     yield '<?xml version="1.0" ?>'
     yield "<!-- Run in this directory: argos3 -c followed by the name of this file. -->"
     yield "<argos-configuration>"
@@ -125,11 +92,11 @@ def _controller(script: str) -> Iterator[str]:
     yield "  </controllers>"
 
 
-def _arena_size(scenario: ArgosScenario) -> tuple[float, float, float]:
+def _arena_size(scenario: Scenario) -> tuple[float, float, float]:
     return scenario.width + 2 * _WALL, scenario.length + 2 * _WALL, _SKY
 
 
-def _arena(scenario: ArgosScenario, floor: str) -> Iterator[str]:
+def _arena(scenario: Scenario, floor: str) -> Iterator[str]:
     east, north = scenario.width / 2, scenario.length / 2
     size = _vector(*_arena_size(scenario))
     yield f'  <arena size="{size}" center="{_vector(0, 0, _SKY / 2 - 0.5)}">'
@@ -157,14 +124,14 @@ def _arena(scenario: ArgosScenario, floor: str) -> Iterator[str]:
     yield "  </arena>"
 
 
-def _robots(scenario: ArgosScenario, east: float, north: float) -> Iterator[str]:
+def _robots(scenario: Scenario, east: float, north: float) -> Iterator[str]:
     """In the nest, as far from its walls as a body needs."""
-    south_west = _vector(-east + _RADIUS, -north + _RADIUS, 0)
-    end = min(-north + scenario.nest, north - _RADIUS)
+    south_west = _vector(-east + footbot.RADIUS, -north + footbot.RADIUS, 0)
+    end = min(-north + scenario.nest, north - footbot.RADIUS)
     yield "    <distribute>"
     yield (
         f'      <position method="uniform" min="{south_west}" '
-        f'max="{_vector(east - _RADIUS, end, 0)}" />'
+        f'max="{_vector(east - footbot.RADIUS, end, 0)}" />'
     )
     yield '      <orientation method="uniform" min="0,0,0" max="360,0,0" />'
     yield f'      <entity quantity="{scenario.robots}" max_trials="200">'

@@ -11,8 +11,8 @@ import math
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from geswarm.rules.exports.geometry import CORNER, Box, Path, Point
-from geswarm.rules.exports.layout import (
+from geswarm.exports.geometry import CORNER, Box, Path, Point
+from geswarm.exports.layout import (
     BRIEF,
     FULL,
     LABEL_SIZE,
@@ -26,7 +26,7 @@ from geswarm.rules.exports.layout import (
     state_lines,
     text_width,
 )
-from geswarm.rules.exports.placing import BADGE
+from geswarm.exports.placing import BADGE
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 

@@ -9,9 +9,15 @@ from multiprocessing import get_context
 import pytest
 
 from geswarm.app.main import main
-from geswarm.cluster import ClusterError, cluster_executor
-from geswarm.experiment import EvaluationError, EvolutionRun, RunConfig
-from geswarm.fitness import Composition, simulate_share
+from geswarm.evolution import (
+    ClusterError,
+    Composition,
+    EvaluationError,
+    EvolutionRun,
+    RunConfig,
+    cluster_executor,
+)
+from geswarm.evolution.fitness import simulate_share
 from geswarm.ge import Settings
 from geswarm.sim import Simulation, load_scenario
 
@@ -78,7 +84,7 @@ def test_another_version_is_refused():
 
 
 def test_no_scheduler_or_no_dask_is_one_clear_message(capsys, monkeypatch):
-    monkeypatch.setattr("geswarm.cluster._PATIENCE", 0.2)
+    monkeypatch.setattr("geswarm.evolution.cluster._PATIENCE", 0.2)
     assert main(["--no-ui", "--cluster", "tcp://127.0.0.1:9", "--out", "nowhere"]) == 2
     error = capsys.readouterr().err
     assert "tcp://127.0.0.1:9: expected a Dask scheduler" in error or "pip install" in error
@@ -87,7 +93,7 @@ def test_no_scheduler_or_no_dask_is_one_clear_message(capsys, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr("geswarm.cluster.import_module", missing)
+    monkeypatch.setattr("geswarm.evolution.cluster.import_module", missing)
     with pytest.raises(ClusterError, match="pip install 'geswarm"), cluster_executor("tcp://x"):
         pass
 

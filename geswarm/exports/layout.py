@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import TypeAlias
 
-from geswarm.rules.exports.geometry import Box, Path, Point, bowed, loops
-from geswarm.rules.exports.placing import clearest, in_columns, place_badges, place_labels
+from geswarm.exports.geometry import Box, Path, Point, bowed, loops
+from geswarm.exports.placing import clearest, in_columns, place_badges, place_labels
 from geswarm.rules.state_machine import State, StateMachine, Transition
 
 Lines: TypeAlias = tuple[str, ...]

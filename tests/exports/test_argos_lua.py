@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from geswarm.exports import format_argos_lua
 from geswarm.rules import (
     FORAGING,
     BehaviourChange,
@@ -19,10 +20,9 @@ from geswarm.rules import (
     parse_text,
     preset_names,
 )
-from geswarm.rules.exports import format_argos_lua
 from geswarm.sim import load_scenario
 from tests import strategies
-from tests.rules.footbot_stub import FootBot, light_direction
+from tests.exports.footbot_stub import FootBot, light_direction
 from tests.sim import oracle
 
 PAPER = load_scenario("paper")

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.exports.geometry import Box, Path, Point, normal
+from geswarm.exports.geometry import Box, Path, Point, normal
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 

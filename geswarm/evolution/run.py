@@ -1,14 +1,4 @@
-"""Where evolution, simulator and rules meet: evaluating rule sets and evolving them to forage.
-
->>> from geswarm.experiment import evaluate_rule_sets
->>> from geswarm.rules import load_rule_set
->>> from geswarm.sim import load_scenario
->>> short = load_scenario("paper").with_changes(duration=500.0)
->>> evo8, hand_coded = map(load_rule_set, ("evo8", "hand-coded"))
->>> first, second = evaluate_rule_sets([evo8, hand_coded], short, runs=20, seed=0)
->>> first.mean > second.mean
-True
-"""
+"""An evolutionary run in its directory."""
 
 from __future__ import annotations
 
@@ -21,15 +11,10 @@ from pathlib import Path
 import yaml
 
 from geswarm import __version__
-from geswarm.evaluation import Evaluation, evaluate_rule_sets
-from geswarm.fitness import (
-    Composition,
-    EvaluationError,
-    ForagingFitness,
-    InjectionError,
-    Stop,
-    foraging_grammar,
-)
+from geswarm.evolution.composition import Composition
+from geswarm.evolution.fitness import ForagingFitness
+from geswarm.evolution.grammar import rule_grammar
+from geswarm.evolution.population import Population
 from geswarm.ge import (
     Engine,
     GenerationRecord,
@@ -44,7 +29,6 @@ from geswarm.ge import (
     StoreError,
     evolve,
 )
-from geswarm.population import Member, Population
 from geswarm.rules import (
     Origin,
     Rule,
@@ -55,22 +39,7 @@ from geswarm.rules import (
     plain_yaml,
 )
 from geswarm.rules.library import write_whole
-from geswarm.sim import Scenario, parse_scenario
-
-__all__ = [
-    "Composition",
-    "Evaluation",
-    "EvaluationError",
-    "EvolutionRun",
-    "ForagingFitness",
-    "InjectionError",
-    "Member",
-    "Population",
-    "RunConfig",
-    "RunConfigError",
-    "evaluate_rule_sets",
-    "foraging_grammar",
-]
+from geswarm.sim import Scenario, Stop, parse_scenario
 
 
 class RunConfigError(ValueError):
@@ -168,7 +137,7 @@ class EvolutionRun:
         """
         store = RunStore.create(directory, config.to_yaml())
         identity = config.composition.behaviour
-        engine = Engine(foraging_grammar(), config.settings, config.seed, identity)
+        engine = Engine(rule_grammar(), config.settings, config.seed, identity)
         return cls(config, store, engine)
 
     @classmethod
@@ -202,7 +171,7 @@ class EvolutionRun:
             config = RunConfig.from_yaml(store.config)
             state = store.checkpoint()
             identity = config.composition.behaviour
-            parameters = foraging_grammar(), config.settings, config.seed
+            parameters = rule_grammar(), config.settings, config.seed
             if state is None:
                 engine = Engine(*parameters, identity)
             else:

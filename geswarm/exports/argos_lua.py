@@ -9,56 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 from textwrap import wrap
-from typing import Protocol
 
 from geswarm.rules.elements import format_boolean, format_probability
 from geswarm.rules.english import describe_rule
 from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
 from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING
+from geswarm.sim import Scenario
 
 _TEMPLATE = Path(__file__).parent / "footbot.lua"
 _WIDTH = 94
 """Characters of a line of a comment, without the dashes."""
 
 
-class FootBotParameters(Protocol):
-    """What the script has to know of a scenario; every `geswarm.sim.Scenario` fits."""
-
-    @property
-    def name(self) -> str:
-        """Name of the scenario."""
-
-    @property
-    def zone_miss(self) -> float:
-        """Probability that a robot perceives neither zone in a control step."""
-
-    @property
-    def random_walk(self) -> tuple[float, float]:
-        """Shortest and longest time for which a random heading is kept (s)."""
-
-    @property
-    def max_speed(self) -> float:
-        """Highest speed of a wheel (m/s)."""
-
-    @property
-    def turn_gain(self) -> float:
-        """Turning speed per angle to the target (1/s)."""
-
-    @property
-    def proximity_range(self) -> float:
-        """Distance from the body's edge at which a wall is sensed (m)."""
-
-    @property
-    def rab_range(self) -> float:
-        """Distance between centres at which another robot is sensed (m)."""
-
-    @property
-    def avoidance_gain(self) -> float:
-        """Weight of the avoidance vector."""
-
-
-def format_argos_lua(rule_set: RuleSet, scenario: FootBotParameters) -> str:
+def format_argos_lua(rule_set: RuleSet, scenario: Scenario) -> str:
     """The controller script.
 
     Raises:
@@ -87,7 +51,7 @@ def _header(rule_set: RuleSet) -> Iterator[str]:
     yield "--"
 
 
-def _parameters(scenario: FootBotParameters) -> Iterator[str]:
+def _parameters(scenario: Scenario) -> Iterator[str]:
     shortest, longest = scenario.random_walk
     yield from _comment(f"Scenario: {scenario.name}", "")
     for name, value, meaning in (

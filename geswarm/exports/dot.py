@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from geswarm.rules.exports.layout import Lines, label_lines
-from geswarm.rules.exports.svg import BEHAVIOUR_COLOURS
+from geswarm.exports.layout import Lines, label_lines
+from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 

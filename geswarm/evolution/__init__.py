@@ -1,0 +1,33 @@
+"""Where rules, simulator and grammatical evolution meet: evolving rule sets.
+
+>>> from geswarm.evolution import Composition, rule_grammar
+>>> from geswarm.ge import Mapper, genome_of
+>>> phenotype = "rule if HAS_OBJECT == true do p = 0.1, PHOTOTAXIS"
+>>> Mapper(rule_grammar()).map(genome_of(rule_grammar(), phenotype)).phenotype == phenotype
+True
+>>> Composition().rule_set(phenotype).rules[0].actions
+(BehaviourChange(p=0.1, behaviour='PHOTOTAXIS'),)
+"""
+
+from geswarm.evolution.cluster import ClusterError, cluster_executor
+from geswarm.evolution.composition import Composition, InjectionError
+from geswarm.evolution.fitness import EvaluationError, ForagingFitness
+from geswarm.evolution.grammar import geswarm_grammar, rule_grammar
+from geswarm.evolution.population import Member, Population
+from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError
+
+__all__ = [
+    "ClusterError",
+    "Composition",
+    "EvaluationError",
+    "EvolutionRun",
+    "ForagingFitness",
+    "InjectionError",
+    "Member",
+    "Population",
+    "RunConfig",
+    "RunConfigError",
+    "cluster_executor",
+    "geswarm_grammar",
+    "rule_grammar",
+]

@@ -1,0 +1,102 @@
+"""From phenotypes to rule sets and back.
+
+genome --mapping--> phenotype text --parse--> RuleSet --compile--> ControlTable
+   ^------inverse mapping---------------------|
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from geswarm.evolution.grammar import rule_grammar
+from geswarm.ge import NotASentenceError, genome_of
+from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, format_text, parse_text
+from geswarm.rules.elements import format_probability
+from geswarm.rules.reachability import reachable_situations
+
+
+class InjectionError(ValueError):
+    """A rule set cannot enter a population; says which rule and why."""
+
+
+@dataclass(frozen=True)
+class Composition:
+    """From phenotypes to rule sets: rules that evolution must not change, then the evolved ones.
+
+    Attributes:
+        frozen: The rules that come first; usually none.
+    """
+
+    frozen: tuple[Rule, ...] = ()
+
+    def rule_set(self, phenotype: str) -> RuleSet:
+        """The whole rule set."""
+        return RuleSet((*self.frozen, *parse_text(phenotype).rules))
+
+    def table(self, phenotype: str) -> ControlTable:
+        """The control table of the whole rule set."""
+        return _table(self, phenotype)
+
+    def phenotype(self, rule_set: RuleSet) -> str:
+        """The phenotype that becomes a rule set; rules that are switched off are left out.
+
+        Raises:
+            InjectionError: It does not begin with the frozen rules, has none besides them, or the
+                grammar does not derive the others: says which rule and why.
+        """
+        rules = tuple(map(_bare, rule_set.active_rules))
+        frozen = len(self.frozen)
+        for number, (rule, expected) in enumerate(zip(rules, self.frozen, strict=False), start=1):
+            if rule != _bare(expected):
+                raise InjectionError(f"rule {number} is frozen, expected it unchanged")
+        if len(rules) <= frozen:
+            raise InjectionError(f"expected more than {frozen} rules switched on, got {len(rules)}")
+        for number, rule in enumerate(rules[frozen:], start=frozen + 1):
+            for action in rule.actions:
+                _require_listed(action.p, number)
+        text = format_text(RuleSet(rules[frozen:])).removeprefix('name ""')
+        phenotype = " ".join(text.split())
+        try:
+            genome_of(rule_grammar(), phenotype)
+        except NotASentenceError as error:
+            raise InjectionError(f"the grammar does not derive these rules: {error}") from error
+        return phenotype
+
+    def behaviour(self, phenotype: str) -> bytes:
+        """Equal for phenotypes under which robots decide the same: an engine's `identity`.
+
+        The control table in the situations that robots can get into, to twelve decimals.
+        """
+        return _behaviour(self, phenotype)
+
+
+def _require_listed(p: float, rule: int) -> None:
+    listed = FORAGING.probabilities
+    if p not in listed:
+        nearest = format_probability(min(listed, key=lambda one: abs(one - p)))
+        raise InjectionError(
+            f"rule {rule}: p = {format_probability(p)} cannot evolve, expected one of "
+            f"{', '.join(map(format_probability, listed))}; the nearest is {nearest}"
+        )
+
+
+def _bare(rule: Rule) -> Rule:
+    return replace(rule, comment="", enabled=True)
+
+
+@lru_cache(maxsize=1024)
+def _table(composition: Composition, phenotype: str) -> ControlTable:
+    return ControlTable.compile(composition.rule_set(phenotype))
+
+
+@lru_cache(maxsize=4096)
+def _behaviour(composition: Composition, phenotype: str) -> bytes:
+    table = composition.table(phenotype)
+    indexing = table.indexing
+    shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
+    decisions = table.probabilities.reshape(shape).round(12)
+    reachable = reachable_situations(decisions, table.vocabulary)
+    return np.packbits(reachable).tobytes() + (decisions[reachable] + 0.0).tobytes()
