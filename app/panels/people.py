@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from geswarm.rules import RuleSet
-from geswarm.rules.elements import format_action, format_precondition
 
 from ..server.channel import Channel, Client, Message
 
@@ -18,11 +14,6 @@ _WORDS = {
     "set_text": "changed the rules as text",
     "take_simplified": "simplified the rules",
     "bring_back": "brought back rules that were not saved",
-}
-_ELEMENT_WORDS: dict[str, Callable[[Any], str]] = {
-    "preconditions": format_precondition,
-    "behaviours": str,
-    "actions": format_action,
 }
 
 
@@ -97,4 +88,4 @@ def _edit_words(edit: Message, before: RuleSet, after: RuleSet) -> str:
 
 def _element_words(edit: Message, rule_set: RuleSet) -> str:
     elements = getattr(rule_set.rules[edit["rule"]], edit["part"])
-    return _ELEMENT_WORDS[edit["part"]](elements[edit["at"]])
+    return str(elements[edit["at"]])

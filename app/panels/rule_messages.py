@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from geswarm.rules import (
     load_preset,
     preset_names,
 )
+from geswarm.rules.arguments import Argument
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.text import format_rule
 from geswarm.sim import World, WorldState
@@ -34,21 +34,47 @@ from ..state.worth import WorthAnswer
 
 def vocabulary_message() -> Message:
     """The names that rules are made of, with their colours, and the presets."""
-
-    def entry(item: Any, **extra: str) -> dict[str, Any]:
-        return {**vars(item), **extra}
-
     return {
         "type": "vocabulary",
-        "preconditions": [entry(item) for item in FORAGING.preconditions],
-        "behaviours": [
-            entry(item, colour=palette.css(palette.behaviour_colour(code)))
-            for code, item in enumerate(FORAGING.behaviours)
+        "preconditions": [
+            {
+                "name": entry.name,
+                "holds": entry.holds,
+                "fails": entry.fails,
+                "arguments": _arguments_json(entry.arguments),
+                "values": list(FORAGING.values_of(entry.name)),
+                "comparisons": list(FORAGING.comparisons_of(entry.name)),
+            }
+            for entry in FORAGING.percepts.values()
         ],
-        "internal_states": [entry(item) for item in FORAGING.internal_states],
+        "behaviours": [
+            {
+                "name": entry.name,
+                "doing": entry.doing,
+                "colour": palette.css(palette.behaviour_colour(code)),
+                "arguments": _arguments_json(entry.arguments),
+            }
+            for code, entry in enumerate(FORAGING.behaviours)
+        ],
+        "internal_states": [
+            {
+                "name": entry.name,
+                "on": entry.on,
+                "off": entry.off,
+                "values": list(entry.values),
+                "counts": entry.counts,
+            }
+            for entry in FORAGING.internal_states
+        ],
         "probabilities": list(FORAGING.probabilities),
         "presets": [{"name": name, "title": load_preset(name).name} for name in preset_names()],
     }
+
+
+def _arguments_json(arguments: Iterable[Argument]) -> list[Message]:
+    return [
+        {"name": each.name, "unit": each.unit, "offered": list(each.offered)} for each in arguments
+    ]
 
 
 def rules_message(document: RuleDocument, insight: Insight | None) -> Message:
@@ -147,16 +173,16 @@ def worth_message(answer: WorthAnswer) -> Message:
 def states_message(drawn: DrawnMachine) -> Message:
     """The state machine of the rules and its picture."""
     machine = drawn.machine
-    doing = {entry.name: entry.doing for entry in machine.vocabulary.behaviours}
+    names = machine.space.vocabulary.behaviour_names
     return {
         "type": "states",
         "svg": drawn.svg,
         "states": [
             {
                 "label": state.label,
-                "behaviour": state.behaviour,
+                "behaviour": asdict(state.behaviour),
                 "means": ", ".join(
-                    [doing[state.behaviour]]
+                    [names[state.behaviour.name].says(state.behaviour)[0]]
                     + [f"{name} is {str(value).lower()}" for name, value in state.internal]
                 ),
                 "initial": state.initial,
@@ -192,6 +218,12 @@ def activity_message(activity: Activity, world: World) -> Message:
 def notice_message(text: str) -> Message:
     """Something that could not be done."""
     return {"type": "notice", "level": "error", "text": text}
+
+
+def journal_message(problem: str) -> Message:
+    """Why rules that are not saved are not kept; empty once they are."""
+    words = f"If the dashboard is killed, rules that were not saved are lost: {problem}"
+    return {**notice_message(words if problem else ""), "about": "journal"}
 
 
 def stale_message(refused: Message) -> Message:

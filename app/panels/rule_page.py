@@ -25,7 +25,6 @@ MAX_TEXT = 200_000
 _FOR_A_VERSION = frozenset(("edit", "undo", "redo", "set_text"))
 _CHANGES = _FOR_A_VERSION | {"load_preset", "load_text", "take_simplified", "bring_back"}
 _SUFFIXES = {"yaml": "yaml", "text": "rules", "json": "json"}
-_NO_JOURNAL = "If the dashboard is killed, rules that were not saved are lost"
 
 
 class RulePage:
@@ -104,8 +103,7 @@ class RulePage:
             broadcast(rule_messages.unsaved_message(journal.left))
         if journal.problem != self._shown_problem:
             self._shown_problem = journal.problem
-            if journal.problem:
-                broadcast(rule_messages.notice_message(f"{_NO_JOURNAL}: {journal.problem}"))
+            broadcast(rule_messages.journal_message(journal.problem))
 
     def _greet(self, client: Client) -> None:
         session, send = self.session, self.channel.send
@@ -118,6 +116,8 @@ class RulePage:
         if session.machine.drawn is not None:
             send(client, rule_messages.states_message(session.machine.drawn), live=True)
         send(client, rule_messages.unsaved_message(session.journal.left))
+        if self._shown_problem:
+            send(client, rule_messages.journal_message(self._shown_problem))
         self.channel.welcome(client)
 
     def _receive(self, client: Client, message: Message) -> None:

@@ -137,10 +137,12 @@ class ScenarioPanel:
         @number.on_update
         def _(event: viser.GuiEvent[viser.GuiNumberHandle[float]]) -> None:
             typed = event.target.value
-            self.session.post(lambda session: self._type(session, value, typed))
+            if event.client is not None:  # else the panel itself assigned it
+                self.session.post(lambda session: self._type(session, value, typed))
 
     def _type(self, session: Session, value: Value, typed: float) -> None:
-        """Remember a number that was typed; what the panel itself assigned is no change."""
+        """Remember a number that was typed; why the one before was refused is of no interest."""
+        session.scenario_problem = ""
         if typed != value.of(session.scenario):
             self._wanted[value.key] = (typed, time.monotonic())
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import numpy as np
 from geswarm.analysis.reproduction import Campaign, CampaignError, Claim, Plan, parse_claims
 from geswarm.analysis.reproduction.progress import Part
 from geswarm.analysis.reproduction.studies import EVO_8, HAND_CODED, evolved_name
+from geswarm.plain_text import decode
 
 MOST_CAMPAIGNS = 200
 """Shown at most, the newest."""
@@ -136,8 +138,7 @@ class CampaignFolder:
         stamp = (status.st_mtime_ns, status.st_size)
         known, curve = self._curves.get(path, (None, ()))
         if known != stamp:
-            with path.open(newline="", encoding="utf-8") as file:
-                curve = tuple(float(row["best_so_far"]) for row in csv.DictReader(file))
+            curve = tuple(float(row["best_so_far"]) for row in _rows(path))
             if not all(map(math.isfinite, curve)):
                 raise ValueError(f"{path.name}: expected finite numbers")
             self._curves[path] = stamp, curve
@@ -169,12 +170,15 @@ def _levels(path: Path) -> dict[str, float]:
     if not path.exists():
         return {}
     collected: dict[str, list[int]] = {EVO_8: [], HAND_CODED: []}
-    with path.open(newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            if row["rules"] in collected:
-                collected[row["rules"]].append(int(row["collected"]))
+    for row in _rows(path):
+        if row["rules"] in collected:
+            collected[row["rules"]].append(int(row["collected"]))
     return {name: float(np.mean(runs)) for name, runs in collected.items() if runs}
 
 
 def _claims(path: Path) -> list[Claim]:
-    return parse_claims(path.read_text(encoding="utf-8"))
+    return parse_claims(decode(path.read_bytes()))
+
+
+def _rows(path: Path) -> csv.DictReader[str]:
+    return csv.DictReader(io.StringIO(decode(path.read_bytes())))

@@ -6,13 +6,13 @@
 >>> Mapper(rule_grammar()).map(genome_of(rule_grammar(), phenotype)).phenotype == phenotype
 True
 >>> Composition().rule_set(phenotype).rules[0].actions
-(BehaviourChange(p=0.1, behaviour='PHOTOTAXIS'),)
+(BehaviourChange(p=0.1, behaviour=Term(name='PHOTOTAXIS', arguments=())),)
 """
 
 from geswarm.evolution.cluster import ClusterError, cluster_executor
 from geswarm.evolution.composition import Composition, InjectionError
 from geswarm.evolution.fitness import EvaluationError, ForagingFitness
-from geswarm.evolution.grammar import geswarm_grammar, rule_grammar
+from geswarm.evolution.grammar import rule_grammar
 from geswarm.evolution.population import Member, Population
 from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError
 
@@ -28,6 +28,5 @@ __all__ = [
     "RunConfig",
     "RunConfigError",
     "cluster_executor",
-    "geswarm_grammar",
     "rule_grammar",
 ]

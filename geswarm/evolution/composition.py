@@ -95,8 +95,7 @@ def _table(composition: Composition, phenotype: str) -> ControlTable:
 @lru_cache(maxsize=4096)
 def _behaviour(composition: Composition, phenotype: str) -> bytes:
     table = composition.table(phenotype)
-    indexing = table.indexing
-    shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
-    decisions = table.probabilities.reshape(shape).round(12)
-    reachable = reachable_situations(decisions, table.vocabulary)
-    return np.packbits(reachable).tobytes() + (decisions[reachable] + 0.0).tobytes()
+    decisions = table.by_percepts.round(12)
+    reachable = reachable_situations(decisions, table.space)
+    told_apart = table.space.signature.encode()
+    return told_apart + np.packbits(reachable).tobytes() + (decisions[reachable] + 0.0).tobytes()

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from textwrap import wrap
 
-from geswarm.rules.elements import format_boolean, format_probability
+from geswarm.rules.elements import format_probability
 from geswarm.rules.english import describe_rule
-from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
+from geswarm.rules.model import Action, Precondition, Rule, RuleSet, format_value
 from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING
 from geswarm.sim import Scenario
@@ -70,7 +70,7 @@ def _parameters(scenario: Scenario) -> Iterator[str]:
 def _start() -> Iterator[str]:
     yield f'  BEHAVIOUR = "{FORAGING.initial_behaviour}"'
     for state in FORAGING.internal_states:
-        yield f"  {state.name} = {format_boolean(state.initially)}"
+        yield f"  {state.name} = {format_value(state.initially)}"
 
 
 def _clear() -> Iterator[str]:
@@ -104,14 +104,14 @@ def _rule(rule: Rule) -> Iterator[str]:
 
 
 def _precondition(precondition: Precondition) -> str:
-    percept = precondition.name.lower()
-    return percept if precondition.holds else f"not {percept}"
+    percept = precondition.percept.name.lower()
+    return percept if FORAGING.holds(precondition, True) else f"not {percept}"
 
 
 def _deed(action: Action) -> str:
-    if isinstance(action, BehaviourChange):
-        return f'change_to("{action.behaviour}")'
-    return f"{action.state} = {format_boolean(action.value)}"
+    if action.target:
+        return f"{action.target} = {action.becomes}"
+    return f'change_to("{action.becomes}")'
 
 
 def _comment(text: str, indent: str) -> Iterator[str]:

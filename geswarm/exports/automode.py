@@ -63,7 +63,7 @@ def format_automode(rule_set: RuleSet) -> str:
 def _state_words(
     machine: StateMachine, order: Sequence[int], number: int, state: int
 ) -> Iterator[str]:
-    behaviour = _BEHAVIOURS[machine.states[state].behaviour]
+    behaviour = _BEHAVIOURS[machine.states[state].behaviour.name]
     yield from (f"--s{number}", str(behaviour))
     if behaviour == 0:
         yield from (f"--rwm{number}", str(_RANDOM_WALK_STEPS))

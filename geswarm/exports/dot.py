@@ -26,12 +26,12 @@ def _lines(machine: StateMachine) -> Iterator[str]:
     yield '  node [shape=box, style="rounded,bold", fontname="Helvetica", margin="0.25,0.12"];'
     yield '  edge [fontname="Helvetica", fontsize=10];'
     for at, state in enumerate(machine.states):
-        code = machine.vocabulary.behaviour_index[state.behaviour]
+        code = machine.position(state.behaviour)
         colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
         border = ", peripheries=2" if state.initial else ""
         yield f"  s{at} [label={_quoted(state.label)}, color={_quoted(colour)}{border}];"
     for (source, target), transitions in machine.between.items():
-        code = machine.vocabulary.behaviour_index[machine.states[source].behaviour]
+        code = machine.position(machine.states[source].behaviour)
         colour = _quoted(BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)])
         label = _left(label_lines(machine, entry) for entry in transitions)
         yield f"  s{source} -> s{target} [label={label}, color={colour}];"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from geswarm.rules.elements import format_action, format_precondition
 from geswarm.rules.model import Rule, RuleSet
 
 _CELL = "text-align:left;vertical-align:top;padding:1px 10px 1px 0;background:none"
@@ -32,9 +31,9 @@ def _rule(number: int, rule: Rule) -> Iterator[str]:
     off = "" if rule.enabled else "(off) "
     yield f"<tbody{faded}>"
     yield _row(f"R{number}", [off + rule.comment], _HEAD)
-    yield _row("P", list(map(format_precondition, rule.preconditions)) or ["ε"], _CELL)
-    yield _row("B", list(rule.behaviours) or ["ε"], _CELL)
-    yield _row("A", list(map(format_action, rule.actions)) or ["ε"], _CELL)
+    yield _row("P", list(map(str, rule.preconditions)) or ["ε"], _CELL)
+    yield _row("B", list(map(str, rule.behaviours)) or ["ε"], _CELL)
+    yield _row("A", list(map(str, rule.actions)) or ["ε"], _CELL)
     yield "</tbody>"
 
 

@@ -7,6 +7,7 @@ Reading such a document takes the rules; the state machine follows from them.
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 from geswarm.rules.as_json import SCHEMA, Json, rule_set_to_json
@@ -47,7 +48,7 @@ def machine_to_json(machine: StateMachine) -> dict[str, Json]:
         "step_seconds": CONTROL_STEP,
         "states": [
             {
-                "behaviour": state.behaviour,
+                "behaviour": asdict(state.behaviour),
                 "internal": dict(state.internal),
                 "initial": state.initial,
             }
@@ -65,7 +66,7 @@ def _transition(transition: Transition) -> dict[str, Json]:
         "when": str(transition.condition),
         "probability": transition.probability,
         "mean_wait": transition.mean_wait,
-        "effects": list(transition.effects),
+        "effects": dict(transition.effects),
         "restarts": transition.restarts,
         "rules": list(transition.rules),
     }

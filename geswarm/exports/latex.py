@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geswarm.rules.elements import format_boolean, format_probability
-from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.elements import format_probability
+from geswarm.rules.model import Action, Precondition, Rule, RuleSet, format_value
 
 _COMMANDS = {
     "\\": r"\textbackslash{}",
@@ -31,6 +31,9 @@ _COLUMNS = r"|l@{\quad}lll|"
 _STYLE = r"\footnotesize\setlength{\tabcolsep}{3pt}\renewcommand{\arraystretch}{1.1}"
 _LINES_PER_PAGE, _CHARACTERS_PER_LINE = 50, 70
 """What is sure to fit; the lines that part the rules are counted as if they were text."""
+
+
+_SIGNS = {"!=": r"\neq", ">=": r"\geq", "<=": r"\leq"} | {sign: sign for sign in ("==", "<", ">")}
 
 
 def format_latex(rule_set: RuleSet) -> str:
@@ -94,16 +97,18 @@ def _rule(number: int, rule: Rule) -> Iterator[str]:
     off = "" if rule.enabled else r"\textit{(off)} "
     comment = rf"\raggedright {off}{latex_text(rule.comment)}".rstrip()
     yield rf"$R_{{{number}}}$: & \multicolumn{{3}}{{p{{0.86\textwidth}}|}}{{{comment}}} \\"
-    holds = [
-        f"$P_{{{_name(entry.name)}}} == {_word(format_boolean(entry.holds))}$"
-        for entry in rule.preconditions
-    ]
-    executing = [f"$B_{{{_name(name)}}}$" for name in rule.behaviours]
+    holds = [_precondition(entry) for entry in rule.preconditions]
+    executing = [f"$B_{{{_name(str(entry))}}}$" for entry in rule.behaviours]
     yield from _rows("P", number, _in_threes(holds or [r"$\varepsilon$"]))
     yield from _rows("B", number, _in_threes(executing or [r"$\varepsilon$"]))
     actions = [_action(entry) for entry in rule.actions]
     yield from _rows("A", number, actions or [[r"$\varepsilon$"]])
     yield r"\hline"
+
+
+def _precondition(entry: Precondition) -> str:
+    sign, value = _SIGNS[entry.comparison], _word(format_value(entry.value))
+    return f"$P_{{{_name(str(entry.percept))}}} {sign} {value}$"
 
 
 def _in_threes(cells: Sequence[str]) -> list[Sequence[str]]:
@@ -119,10 +124,12 @@ def _rows(letter: str, number: int, rows: Sequence[Sequence[str]]) -> Iterator[s
 
 def _action(action: Action) -> list[str]:
     probability = f"$p = {_number(action.p)}$"
-    if isinstance(action, BehaviourChange):
-        return ["$A_B$", probability, rf"$B \leftarrow B_{{{_name(action.behaviour)}}}$"]
-    target = rf"$IS_{{{_name(action.state)}}} \leftarrow {_word(format_boolean(action.value))}$"
-    return ["$A_{IS}$", probability, target]
+    if not action.target:
+        return ["$A_B$", probability, rf"$B \leftarrow B_{{{_name(action.becomes)}}}$"]
+    state = f"IS_{{{_name(action.target)}}}"
+    becomes = _word(action.becomes.removeprefix(action.target).strip())
+    counted = f"{state} " if action.becomes.startswith(f"{action.target} ") else ""
+    return ["$A_{IS}$", probability, rf"${state} \leftarrow {counted}{becomes}$"]
 
 
 def _number(p: float) -> str:

@@ -1,8 +1,8 @@
 """Where the parts of a state machine's picture go: states on an oval, arrows bowed apart.
 
-Text stands at the arrows. If there is no room for all of it without covering something else, arrows
-are numbered, and the text stands in a list below. All lengths are in pixels, x to the right and y
-down; the layout is deterministic.
+Text stands at the arrows. If there is no room for all of it without covering something else, a
+brief picture gets wider; in a full one arrows are numbered, and the text stands in a list below.
+All lengths are in pixels, x to the right and y down; the layout is deterministic.
 """
 
 from __future__ import annotations
@@ -28,6 +28,8 @@ _OUTER_BOWS = (0.17, 0.13, 0.21, 0.25, 0.09, 0.05)
 _INNER_BOWS = (0.045, 0.08, 0.11, 0.02, 0.15)
 _CLEAR = 14.0  # between an arrow and a state that it passes
 _LIST_GAP = 16.0
+_TYPICAL = 0.00999  # probability whose text is as long as most
+_WIDER = (1.0, 1.2, 1.5)  # ovals that are tried until the text finds room
 _PADDING = 24.0
 
 
@@ -63,7 +65,8 @@ class Form:
         bare_radius: The radius if no text stands at the arrows.
         growth: By how much of it each state beyond the third widens the oval.
         spare: Height that a state leaves free below its text.
-        listed: Whether text that finds no room stands in a list below; else it is left out.
+        listed: Whether text that finds no room stands in a list below; else the picture gets
+            wider, up to a point, and the text is left out beyond it.
     """
 
     arrow_lines: Callable[[StateMachine, Transition], Lines]
@@ -93,7 +96,7 @@ def text_width(text: str, size: float) -> float:
 
 def state_lines(state: State) -> Lines:
     """The text of a state: its behaviour, then the internal states that distinguish it."""
-    return (state.behaviour, *state.marks)
+    return (str(state.behaviour), *state.marks)
 
 
 def heading_lines(machine: StateMachine, arrow: Arrow) -> Lines:
@@ -134,12 +137,13 @@ BRIEF = Form(
 
 def lay_out(machine: StateMachine, form: Form = FULL) -> Layout:
     """Place states, arrows and text so that nothing covers anything else."""
-    states = _place_states(machine, form, form.radius)
-    arrows = _arrows(machine, form, states)
-    labels = _labels_at_arrows(arrows, states)
-    if labels is not None:
-        arrows = [replace(arrow, label=box) for arrow, box in zip(arrows, labels, strict=True)]
-        return _at_origin(states, arrows)
+    for wider in _WIDER[:1] if form.listed else _WIDER:
+        states = _place_states(machine, form, wider * form.radius)
+        arrows = _arrows(machine, form, states)
+        labels = _labels_at_arrows(machine, form, arrows, states)
+        if labels is not None:
+            arrows = [replace(arrow, label=box) for arrow, box in zip(arrows, labels, strict=True)]
+            return _at_origin(states, arrows)
     states = _place_states(machine, form, form.bare_radius)
     arrows = _arrows(machine, form, states)
     if not form.listed:
@@ -149,11 +153,28 @@ def lay_out(machine: StateMachine, form: Form = FULL) -> Layout:
     return _with_list(machine, _at_origin(states, arrows))
 
 
-def _labels_at_arrows(arrows: Sequence[Arrow], states: Sequence[Box]) -> list[Box] | None:
+def _labels_at_arrows(
+    machine: StateMachine, form: Form, arrows: Sequence[Arrow], states: Sequence[Box]
+) -> list[Box] | None:
     if not arrows:
         return []
     extents = [label_extent(arrow.lines) for arrow in arrows]
+    if not form.listed:  # on a page, nothing moves because a probability has other digits
+        extents = [
+            _larger(extent, label_extent(_typical_lines(machine, form, arrow)))
+            for extent, arrow in zip(extents, arrows, strict=True)
+        ]
     return place_labels([arrow.path for arrow in arrows], states, extents)
+
+
+def _typical_lines(machine: StateMachine, form: Form, arrow: Arrow) -> list[Lines]:
+    """The text of an arrow as it would be with probabilities of the usual length."""
+    entries = [replace(machine.transitions[at], probability=_TYPICAL) for at in arrow.transitions]
+    return [form.arrow_lines(machine, entry) for entry in entries]
+
+
+def _larger(one: Point, other: Point) -> Point:
+    return max(one[0], other[0]), max(one[1], other[1])
 
 
 def _place_states(machine: StateMachine, form: Form, radius: float) -> list[Box]:

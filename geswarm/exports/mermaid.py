@@ -37,7 +37,7 @@ def _lines(machine: StateMachine) -> Iterator[str]:
         label = "<br/><br/>".join(map("<br/>".join, blocks))
         yield f"    s{source} --> s{target} : {label}"
     for at, state in enumerate(machine.states):
-        code = machine.vocabulary.behaviour_index[state.behaviour]
+        code = machine.position(state.behaviour)
         colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
         yield f"    classDef behaviour{at} stroke:{colour},stroke-width:3px"
         yield f"    class s{at} behaviour{at}"

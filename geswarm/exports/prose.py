@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from geswarm.rules.elements import format_action, format_precondition
 from geswarm.rules.english import describe
 from geswarm.rules.model import Rule, RuleSet
 
@@ -38,14 +37,14 @@ def _markdown_lines(rule_set: RuleSet) -> Iterator[str]:
 def _cells(number: int, rule: Rule) -> tuple[str, ...]:
     return (
         f"R{number}" + ("" if rule.enabled else " (off)"),
-        _codes(map(format_precondition, rule.preconditions)),
-        _codes(rule.behaviours),
-        _codes(map(format_action, rule.actions)),
+        _codes(map(str, rule.preconditions)),
+        _codes(map(str, rule.behaviours)),
+        _codes(map(str, rule.actions)),
         _escaped(rule.comment),
     )
 
 
-def _codes(elements: Iterator[str] | tuple[str, ...]) -> str:
+def _codes(elements: Iterator[str]) -> str:
     """Elements as code, one under the other; they hold no backtick and no bar."""
     return "<br>".join(f"`{element}`" for element in elements) or "ε"
 

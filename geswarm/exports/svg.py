@@ -102,7 +102,7 @@ def brief_svg(machine: StateMachine) -> str:
 
 def _colour(machine: StateMachine, state: int) -> tuple[str, str]:
     """Strong and pale colour of a state's behaviour."""
-    code = machine.vocabulary.behaviour_index[machine.states[state].behaviour]
+    code = machine.position(machine.states[state].behaviour)
     at = code % len(BEHAVIOUR_COLOURS)
     return BEHAVIOUR_COLOURS[at], _TINTS[at]
 

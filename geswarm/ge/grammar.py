@@ -1,10 +1,11 @@
-"""Context-free grammars in Backus-Naur form (O'Neill & Ryan 2001), read from `.bnf` files.
+r"""Context-free grammars in Backus-Naur form (O'Neill & Ryan 2001), read from `.bnf` files.
 
 The subset that GEVA and PonyGE2 share: `<name> ::= a | b`, terminals quoted with " or ' or bare,
-`#` comments, alternatives continued on following lines, `""` for the empty alternative.
+`#` comments, alternatives continued on following lines, `""` for the empty alternative. In quotes,
+`\n` is a line break, `\t` a tab, and `\\`, `\"` and `\'` are the characters themselves.
 
-Symbols that touch in the file touch in the sentence; white space between them, or inside quotes, is
-a single space in the sentence: `<digit><digit>.<digit>` gives 12.5, `<expr> + <expr>` gives x + y.
+Symbols that touch in the file touch in the sentence: `<digit><digit>.<digit>` gives 12.5. The white
+space between others stays, as a single space if it is spaces: `<expr> + <expr>` gives x + y.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
+
+from geswarm.plain_text import read_file, tidy
 
 MAX_CHARACTERS, MAX_RULES = 20_000, 1000
 """Of a grammar's text; they bound what has to be done to read it and to map with it."""
@@ -33,10 +36,11 @@ class NonTerminal:
 
 
 Symbol: TypeAlias = str | NonTerminal
-"""A terminal: a word or SPACE; or a non-terminal."""
+"""A terminal: SPACE, or text without spaces; or a non-terminal."""
 
 SPACE = " "
-"""White space: one space, however many of them meet, and none at the ends of a sentence."""
+"""One space, however many of them meet, and none at the ends of a sentence; at the beginning of a
+line each of them counts."""
 
 Alternative: TypeAlias = tuple[Symbol, ...]
 
@@ -81,8 +85,7 @@ class Grammar:
             GrammarError: The file cannot be read, or has errors: all of them, with file and line.
         """
         try:
-            with Path(path).open(encoding="utf-8") as file:
-                text = file.read(MAX_CHARACTERS + 1)
+            text = read_file(path, MAX_CHARACTERS)
         except (OSError, ValueError) as error:
             raise GrammarError([f"{path}: cannot be read as a grammar: {error}"]) from error
         return cls.parse(text, source=str(path), vocabulary=vocabulary)
@@ -95,6 +98,7 @@ class Grammar:
         vocabulary: Mapping[str, Sequence[str]] | None = None,
     ) -> Grammar:
         """Read a grammar from text; see `load`."""
+        text = tidy(text)
         if len(text) > MAX_CHARACTERS:
             raise GrammarError([f"{source}: expected at most {MAX_CHARACTERS} characters"])
         reader = _Reader(source)
@@ -112,25 +116,36 @@ class Grammar:
         return len(self.rules[name])
 
 
-_NAME = r"<[A-Za-z_][\w.:-]*>"
+_NAME = r"<[^\s<>|\"'\#\\]+>"
+_SPACED = r"<(?=\S)[^<>|\"'\#\\\n]*[^\s<>|\"'\#\\]>"  # with white space in it, where _NAME is not
 _TOKEN = re.compile(
-    rf"""(?P<space>\s+ | \#[^\n]*)
-      | (?P<define>{_NAME}\s*::=)
+    rf"""(?P<space>[ \t\n\f\v]+)
+      | (?P<comment>\#[^\n]*)
+      | (?P<define><[^<>\n]*>\s*::=)
       | (?P<name>(?!<GECodonValue){_NAME})
       | (?P<bar>\|)
-      | (?P<quoted>"[^"\n]*" | '[^'\n]*')
-      | (?P<broken>["'][^\n]* | ::= | <GECodonValue[^\n]* | GE_RANGE:[^\n]* | \\)
-      | (?P<word>(?:(?!{_NAME}|<GECodonValue|::=)[^\s|"'\#\\])+)""",
+      | (?P<quoted>"(?:[^"\\\n]|\\.)*" | '(?:[^'\\\n]|\\.)*')
+      | (?P<unclosed>["'][^\n]*)
+      | (?P<misplaced>::=)
+      | (?P<codon><GECodonValue[^\n]*)
+      | (?P<range>GE_RANGE:[^\n]*)
+      | (?P<backslash>\\)
+      | (?P<spaced>{_SPACED})
+      | (?P<word>(?:(?!{_NAME}|{_SPACED}|<GECodonValue|::=)[^ \t\n\f\v|"'\#\\])+)""",
     re.VERBOSE,
 )
-_WHY_BROKEN = {
-    '"': 'expected a closing " on the same line',
-    "'": "expected a closing ' on the same line",
-    ":": "unexpected ::=, expected it only after a <name> that begins a line",
-    "<": "GECodonValue is not supported, expected the alternatives written out",
-    "G": "GE_RANGE is not supported, expected the alternatives written out",
-    "\\": "unexpected backslash outside quotes, expected quoted or plain words",
+_WHY_REFUSED = {
+    "unclosed": "expected a closing {0} on the same line",
+    "misplaced": "unexpected ::=, expected it only after a <name> that begins a line",
+    "codon": "GECodonValue is not supported, expected the alternatives written out",
+    "range": "GE_RANGE is not supported, expected the alternatives written out",
+    "backslash": "unexpected backslash outside quotes, expected quoted or plain words",
+    "spaced": "expected a name without white space, or quotes around what is no name",
 }
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r", "f": "\f", "v": "\v", "a": "\a", "b": "\b"} | {
+    mark: mark for mark in "\\'\""
+}
+_WHY_ESCAPED = r"""in quotes, expected \\ for a backslash, or \n \t \r \f \v \a \b \' or \""""
 
 
 class _Reader:
@@ -148,35 +163,45 @@ class _Reader:
         body: list[Alternative] | None = None
         symbols: list[Symbol] | None = None  # of the present alternative; None: nothing yet
         line = at = 1
-        apart = False  # there was white space since the last symbol
+        gap = ""  # white space and comments since the last symbol
         for match in _TOKEN.finditer(text):
-            kind, token, at = match.lastgroup, match.group(), line
+            kind, token, at = match.lastgroup or "", match.group(), line
             line += token.count("\n")
+            if kind in ("space", "comment"):
+                gap += token
+                continue
             if kind == "define":
                 self._close(body, symbols, at)
                 before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
                 body, symbols = self._define(token[1 : token.index(">")], before, at), None
-            elif kind == "broken":
-                self.findings.append((at, f"{_WHY_BROKEN[token[0]]}, got {token.strip()[:40]!r}"))
+            elif kind in _WHY_REFUSED:
+                self._refuse(kind, token, at)
                 symbols = symbols or []
             elif kind == "bar" and body is not None:
                 self._close(body, symbols, at)
                 symbols = None
-            elif kind != "space" and body is None:
+            elif body is None:
                 self.findings.append(
                     (at, f"expected <name> ::= to begin a rule, got {token[:40]!r}")
                 )
                 return
-            elif kind != "space":
+            else:
+                between = [] if symbols is None else self._between(gap, token, at)
                 symbols = symbols or []
-                symbols += [SPACE] if symbols and apart else []
-                symbols += self._symbols(kind, token, at)
-            apart = kind == "space"
+                symbols += [*between, *self._symbols(kind, token, at)]
+            gap = ""
         self._close(body, symbols, at)
         if not self.rules and not self.findings:
             self.findings.append((1, "there is no rule, expected <name> ::= a | b"))
 
+    def _refuse(self, kind: str, token: str, line: int) -> None:
+        why = _WHY_REFUSED[kind].format(token[0])
+        self.findings.append((line, f"{why}, got {token.strip()[:40]!r}"))
+
     def _define(self, name: str, before: str, line: int) -> list[Alternative]:
+        if not re.fullmatch(_NAME, f"<{name}>"):
+            expected = "expected a name without white space, |, quotes, # and backslash"
+            self.findings.append((line, f"{expected}, got <{name[:40]}>"))
         if before.strip():
             self.findings.append(
                 (line, f"<{name}> ::= must begin a line, got it after {before[-40:]!r}")
@@ -199,11 +224,26 @@ class _Reader:
                 )
             body.append(tuple(symbols or ()))
 
-    def _symbols(self, kind: str | None, token: str, line: int) -> list[Symbol]:
+    def _between(self, gap: str, token: str, line: int) -> list[Symbol]:
+        """What stands between two symbols of an alternative."""
+        if "#" in gap:  # PonyGE2 begins another alternative here
+            message = f"expected | or the end of the rule after a comment, got {token[:40]!r}"
+            self.findings.append((line, message))
+        return list(_terminals(re.sub(r" *(\n| ) *", r"\1", gap)))
+
+    def _symbols(self, kind: str, token: str, line: int) -> list[Symbol]:
         if kind == "name":
             self.uses.setdefault(token[1:-1], line)
             return [NonTerminal(token[1:-1])]
-        return list(_terminals(token[1:-1] if kind == "quoted" else token))
+        return list(_terminals(self._unquoted(token, line) if kind == "quoted" else token))
+
+    def _unquoted(self, token: str, line: int) -> str:
+        def character(match: re.Match[str]) -> str:
+            if match[1] not in _ESCAPED:  # GEVA and PonyGE2 disagree about these
+                self.findings.append((line, f"{_WHY_ESCAPED}, got {match[0]}"))
+            return _ESCAPED.get(match[1], match[0])
+
+        return re.sub(r"\\(.)", character, token[1:-1])
 
     def fill(self, vocabulary: Mapping[str, Sequence[str]]) -> None:
         """Define the non-terminals that the file leaves open."""
@@ -224,7 +264,10 @@ class _Reader:
         """Find what keeps the grammar from deriving sentences."""
         for name, line in self.uses.items():
             if name not in self.rules:
-                message = f"<{name}> is not defined, expected <{name}> ::= or a vocabulary for it"
+                message = (
+                    f"<{name}> is not defined, expected <{name}> ::= or a vocabulary for it, "
+                    "or quotes around it if it is a word"
+                )
                 self.findings.append((line, message))
         if len(self.rules) > MAX_RULES:
             message = f"expected at most {MAX_RULES} rules, got {len(self.rules)}"
@@ -280,8 +323,8 @@ class _Reader:
 
 
 def _terminals(text: str) -> tuple[str, ...]:
-    """Words, with SPACE for each stretch of white space."""
-    return tuple(SPACE if part.isspace() else part for part in re.findall(r"\s+|\S+", text))
+    """Text cut at its spaces."""
+    return tuple(re.findall(r" |[^ ]+", text))
 
 
 def _names(alternative: Alternative) -> set[str]:

@@ -56,9 +56,10 @@ def choices_of(grammar: Grammar, text: str) -> list[tuple[int, int]]:
     Raises:
         NotASentenceError: The grammar does not derive the text.
     """
-    exact = _Parser(grammar, text)
-    if exact.root is not None:
-        return list(exact.choices(exact.root))
+    for sentence in (text, " ".join(text.split())):
+        exact = _Parser(grammar, sentence)
+        if exact.root is not None:
+            return list(exact.choices(exact.root))
     lenient = _Parser(grammar, text, lenient=True)
     if lenient.root is None:
         raise lenient.error()
@@ -114,9 +115,9 @@ class _Parser:
         self.rules = grammar.rules
         self.start = grammar.start
         self.text = text
-        self.end = len(text.rstrip())
-        self.begin = min(self._skip_space(0), self.end)
         self.lenient = lenient
+        self.begin = self._skip_space(0) if lenient else 0
+        self.end = max(len(text.rstrip()), self.begin) if lenient else len(text)
         self.chart: list[dict[_Item, _Step | None]] = [{} for _ in range(len(text) + 1)]
         self.waiting: dict[tuple[int, str], list[_Item]] = {}
         self._predict(self.start, self.begin)
@@ -126,6 +127,9 @@ class _Parser:
                 self.furthest = position
                 self._process(position)
         self.root = self._whole(self.end)
+        while self.root is None and self.end < len(text):  # it may end with a line break
+            self.end += 1
+            self.root = self._whole(self.end)
 
     def choices(self, root: _Item) -> Iterator[tuple[int, int]]:
         """Walk the derivation tree in preorder."""
@@ -206,15 +210,23 @@ class _Parser:
                 agenda.append(advanced)
 
     def _scan_space(self, item: _Item, position: int, agenda: list[_Item]) -> None:
-        """White space; none is needed where there was some, or where words stay apart."""
-        after = self._skip_space(position)
-        if after > position:
-            self._advance(item, position, None, after, None)
-            return
-        before, here = self.text[position - 1 : position], self.text[position : position + 1]
-        at_edge = position in (self.begin, self.end) or before.isspace()
-        if at_edge or (self.lenient and not (_is_part_of_name(before) and _is_part_of_name(here))):
+        """A space; none is needed at the ends, after another one, or where words stay apart."""
+        here, before = self.text[position : position + 1], self.text[position - 1 : position]
+        if self.lenient:
+            after = self._skip_space(position)
+            apart = before.isspace() or not (_is_part_of_name(before) and _is_part_of_name(here))
+        else:
+            after = position + (here == SPACE)
+            apart = before == SPACE and not self._is_indented(position)
+        for end in range(position + 1, after + 1):
+            self._advance(item, position, None, end, None)
+        if after == position and (apart or position in (self.begin, self.end)):
             self._advance(item, position, None, position, agenda)
+
+    def _is_indented(self, position: int) -> bool:
+        """Whether there are only spaces before in a line that is not the first."""
+        line = self.text.rfind("\n", 0, position) + 1
+        return line > 0 and self.text[line:position].isspace()
 
     def _skip_space(self, position: int) -> int:
         found = _SPACE.match(self.text, position)

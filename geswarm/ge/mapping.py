@@ -9,6 +9,7 @@ wherever such a non-terminal leads to a choice, as everywhere in the GESwarm gra
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import chain, repeat
 from typing import NamedTuple, TypeAlias
@@ -17,6 +18,9 @@ from geswarm.ge.grammar import Alternative, Grammar, NonTerminal
 
 CODON_LIMIT = 1 << 31
 """Codons are integers in [0, CODON_LIMIT)."""
+
+_SPACES = re.compile(r"(?<![ \n])  +")
+"""Several spaces, but not at the beginning of a line."""
 
 Genome: TypeAlias = tuple[int, ...]
 
@@ -87,7 +91,7 @@ class Mapper:
                     push(rest)
         except StopIteration:
             return Derivation(None, used)
-        return Derivation(" ".join("".join(parts).split()), used)
+        return Derivation(_SPACES.sub(" ", "".join(parts)).strip(" "), used)
 
     def _expansion(
         self, lead: str, alternative: Alternative, unfinished: list[tuple[str, str]]

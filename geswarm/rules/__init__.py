@@ -15,7 +15,7 @@ from geswarm.rules.as_json import format_json, parse_json
 from geswarm.rules.check import check
 from geswarm.rules.compare import Difference, first_difference, same_behaviour
 from geswarm.rules.conditions import Condition
-from geswarm.rules.control_table import ControlTable, Indexing
+from geswarm.rules.control_table import ControlTable
 from geswarm.rules.edits import EditError, apply_edit
 from geswarm.rules.english import describe, describe_rule
 from geswarm.rules.findings import Finding, Place, RuleSetError
@@ -36,9 +36,11 @@ from geswarm.rules.model import (
     Rule,
     RuleSet,
     StateChange,
+    Term,
 )
 from geswarm.rules.paper_table import format_table
 from geswarm.rules.simplify import Simplification, simplify
+from geswarm.rules.space import Space
 from geswarm.rules.state_machine import State, StateMachine, Transition
 from geswarm.rules.text import format_text, parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
@@ -54,7 +56,6 @@ __all__ = [
     "Difference",
     "EditError",
     "Finding",
-    "Indexing",
     "Origin",
     "Place",
     "Precondition",
@@ -63,9 +64,11 @@ __all__ = [
     "RuleSetError",
     "RuleSetNotFoundError",
     "Simplification",
+    "Space",
     "State",
     "StateChange",
     "StateMachine",
+    "Term",
     "Transition",
     "Vocabulary",
     "apply_edit",

@@ -1,21 +1,26 @@
 """Rule sets as plain JSON values, for the rule table page and for other programs.
 
 {"name", "comment", "origin": {"preset", "run", "generation", "fitness"},
- "rules": [{"comment", "enabled", "preconditions": [{"name", "holds"}], "behaviours": [name],
-            "actions": [{"p", "behaviour"} or {"p", "state", "value"}]}]}
+ "rules": [{"comment", "enabled", "preconditions": [{"percept": TERM, "comparison", "value"}],
+            "behaviours": [TERM],
+            "actions": [{"p", "behaviour": TERM} or {"p", "state", "operation", "value"}]}]}
 
-A file has `"schema": 1` beside these; whatever else it has is not read. The JSON Schema of files is
-`geswarm/exports/rule-set.schema.json`.
+TERM is {"name", "arguments"}. A file has `"schema": 2` beside these, and exports add what follows
+from the rules, which is not read. Files of schema 1 are read, too: it had no arguments, so a term
+was its name, and a precondition {"name", "holds"}. `geswarm/exports/rule-set.schema.json` is the
+JSON Schema of files.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any, TypeAlias, TypeVar
 
-from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.plain_text import tidy
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown, unknown_name
 from geswarm.rules.limits import is_finite
 from geswarm.rules.model import (
     Action,
@@ -25,11 +30,28 @@ from geswarm.rules.model import (
     Rule,
     RuleSet,
     StateChange,
+    Term,
+    Value,
 )
 from geswarm.rules.names import name_errors, probability_error
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-SCHEMA = 1
+SCHEMA = 2
+
+_TOP_KEYS = ("schema", "name", "comment", "origin", "rules", "state_machine")
+_RULE_KEYS = ("comment", "enabled", "preconditions", "behaviours", "actions")
+_ORIGIN_KEYS: dict[str, type | tuple[type, ...]] = {
+    "preset": str,
+    "run": str,
+    "generation": int,
+    "fitness": (int, float),
+}
+_EXPECTED: dict[type | tuple[type, ...], str] = {
+    str: "text",
+    bool: "true or false",
+    int: "a whole number",
+    (int, float): "a number",
+}
 
 Json: TypeAlias = Any
 T = TypeVar("T")
@@ -37,6 +59,15 @@ T = TypeVar("T")
 
 class JsonError(ValueError):
     """A JSON value is not the part of a rule set that was expected."""
+
+
+class _Object(dict[str, Json]):
+    """An object of a JSON text, which knows the keys that it had more than once."""
+
+    def __init__(self, pairs: Sequence[tuple[str, Json]]) -> None:
+        super().__init__(pairs)
+        counts = Counter(key for key, _ in pairs)
+        self.repeated = [key for key, count in counts.items() if count > 1]
 
 
 def rule_set_to_json(rule_set: RuleSet) -> dict[str, Json]:
@@ -57,7 +88,7 @@ def parse_json(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -
         RuleSetError: With every problem, each with file, rule and element.
     """
     try:
-        document = json.loads(text)
+        document = json.loads(tidy(text), object_pairs_hook=_Object)
     except json.JSONDecodeError as error:
         reason = f"not valid JSON: {error.msg} at column {error.colno}"
         raise RuleSetError([Finding(Place(source, error.lineno), reason)]) from error
@@ -86,8 +117,10 @@ class _Reader:
         if not isinstance(document, dict):
             self.report(JsonError(f"expected a rule set, got {shown(document)}"))
             return RuleSet()
-        if document.get("schema", SCHEMA) != SCHEMA:
-            self.report(JsonError(f"expected schema {SCHEMA}, got {shown(document['schema'])}"))
+        self.keys(document, _TOP_KEYS)
+        schema = document.get("schema", SCHEMA)
+        if schema not in (1, SCHEMA) or isinstance(schema, bool):
+            self.report(JsonError(f"expected schema {SCHEMA}, got {shown(schema)}"))
         if "rules" not in document:
             self.report(JsonError('expected "rules" with a list of rules'))
         rules = self.part(list[Json](), lambda: _list(document, "rules"))
@@ -95,12 +128,13 @@ class _Reader:
             rules=tuple(self.rule(number, rule) for number, rule in enumerate(rules, start=1)),
             name=self.part("", lambda: _field(document, "name", str, "")),
             comment=self.part("", lambda: _field(document, "comment", str, "")),
-            origin=self.part(Origin(), lambda: _origin(document.get("origin") or {})),
+            origin=self.part(Origin(), lambda: _origin(document.get("origin", {}))),
         )
 
     def rule(self, number: int, value: Json) -> Rule:
         if not isinstance(value, dict):
             return self.part(Rule(), lambda: rule_from_json(value), number)
+        self.keys(value, _RULE_KEYS, number)
 
         def elements(key: str, read: Callable[[Json], T]) -> tuple[T, ...]:
             items = self.part(list[Json](), lambda: _list(value, key), number)
@@ -120,6 +154,10 @@ class _Reader:
             enabled=self.part(True, lambda: _field(value, "enabled", bool, True), number),
         )
 
+    def keys(self, value: dict[str, Json], known: Sequence[str], rule: int | None = None) -> None:
+        for reason in _wrong_keys(value, known):
+            self.report(JsonError(reason), rule)
+
     def part(self, fallback: T, read: Callable[[], T], rule: int | None = None) -> T:
         try:
             return read()
@@ -132,15 +170,9 @@ class _Reader:
 
 
 def _origin(value: Json) -> Origin:
-    if not isinstance(value, dict):
-        raise JsonError(f"origin: expected an object, got {shown(value)}")
-    known: dict[str, type | tuple[type, ...]] = {
-        "preset": str,
-        "run": str,
-        "generation": int,
-        "fitness": (int, float),
-    }
-    parts = {key: _field(value, key, known[key]) for key in known if value.get(key) is not None}
+    _require_keys(value, "an object", tuple(_ORIGIN_KEYS), "origin: ")
+    given = [key for key in _ORIGIN_KEYS if value.get(key) is not None]
+    parts = {key: _field(value, key, _ORIGIN_KEYS[key]) for key in given}
     for key in ("generation", "fitness"):
         if not is_finite(parts.get(key, 0)):
             raise JsonError(f"{key}: expected a finite number, got {shown(parts[key])}")
@@ -153,8 +185,7 @@ def rule_from_json(value: Json) -> Rule:
     Raises:
         JsonError: The value has another shape.
     """
-    if not isinstance(value, dict):
-        raise JsonError(f"expected a rule, got {shown(value)}")
+    _require_keys(value, "a rule", _RULE_KEYS)
     return Rule(
         preconditions=tuple(map(precondition_from_json, _list(value, "preconditions"))),
         behaviours=tuple(map(behaviour_from_json, _list(value, "behaviours"))),
@@ -165,41 +196,73 @@ def rule_from_json(value: Json) -> Rule:
 
 
 def precondition_from_json(value: Json) -> Precondition:
-    """Read {"name", "holds"}.
+    """Read {"percept", "comparison", "value"}, or {"name", "holds"} of schema 1.
 
     Raises:
         JsonError: The value has another shape.
     """
-    if not isinstance(value, dict):
-        raise JsonError(f"expected a precondition, got {shown(value)}")
-    return Precondition(_field(value, "name", str), _field(value, "holds", bool))
+    if isinstance(value, dict) and "percept" not in value and "holds" in value:
+        _require_keys(value, "a precondition", ("name", "holds"))
+        return Precondition(Term(_field(value, "name", str)), _field(value, "holds", bool))
+    _require_keys(value, "a precondition", ("percept", "comparison", "value"))
+    percept = term_from_json(value.get("percept"), "percept: expected a term")
+    return Precondition(percept, _value(value, "value"), _field(value, "comparison", str, "=="))
 
 
-def behaviour_from_json(value: Json) -> str:
-    """Read a behaviour name.
+def term_from_json(value: Json, expected: str = "expected a term") -> Term:
+    """Read {"name", "arguments"}, or a name alone.
 
     Raises:
-        JsonError: The value is not text.
+        JsonError: The value has another shape.
     """
-    if not isinstance(value, str):
-        raise JsonError(f"expected the name of a behaviour, got {shown(value)}")
-    return value
+    if isinstance(value, str):
+        return Term(value)
+    if not isinstance(value, dict):
+        raise JsonError(f"{expected}, got {shown(value)}")
+    _require_keys(value, "a term", ("name", "arguments"))
+    arguments = [_value({"argument": each}, "argument") for each in _list(value, "arguments")]
+    return Term(_field(value, "name", str), tuple(arguments))
+
+
+def behaviour_from_json(value: Json) -> Term:
+    """Read a behaviour: a term.
+
+    Raises:
+        JsonError: The value has another shape.
+    """
+    return term_from_json(value, "expected a behaviour")
 
 
 def action_from_json(value: Json) -> Action:
-    """Read {"p", "behaviour"} or {"p", "state", "value"}.
+    """Read {"p", "behaviour"} or {"p", "state", "operation", "value"}.
 
     Raises:
         JsonError: The value has another shape, or p is no finite number.
     """
-    if not isinstance(value, dict):
-        raise JsonError(f"expected an action, got {shown(value)}")
+    _require_keys(value, "an action", ("p", "behaviour", "state", "operation", "value"))
+    if "behaviour" in value and len(value) > 2:
+        raise JsonError("expected either behaviour, or state and value, got both")
     p = _field(value, "p", (int, float))
     if not is_finite(p):
         raise JsonError(probability_error(p))
     if "behaviour" in value:
-        return BehaviourChange(float(p), _field(value, "behaviour", str))
-    return StateChange(float(p), _field(value, "state", str), _field(value, "value", bool))
+        return BehaviourChange(float(p), behaviour_from_json(value["behaviour"]))
+    operation = _field(value, "operation", str, "=")
+    return StateChange(float(p), _field(value, "state", str), _value(value, "value"), operation)
+
+
+def _require_keys(value: Json, what: str, known: Sequence[str], where: str = "") -> None:
+    if not isinstance(value, dict):
+        raise JsonError(f"{where}expected {what}, got {shown(value)}")
+    if reasons := _wrong_keys(value, known):
+        raise JsonError(where + "; ".join(reasons))
+
+
+def _wrong_keys(value: dict[str, Json], known: Sequence[str]) -> list[str]:
+    """What is wrong with the keys of an object."""
+    unknown = [unknown_name("key", key, known) for key in value if key not in known]
+    repeated = value.repeated if isinstance(value, _Object) else []
+    return unknown + [f"{shown(key)} is given twice" for key in repeated]
 
 
 def _list(value: dict[str, Json], key: str) -> list[Json]:
@@ -209,10 +272,18 @@ def _list(value: dict[str, Json], key: str) -> list[Json]:
     return list(items)
 
 
+def _value(value: dict[str, Json], key: str) -> Value:
+    found: Value | None = value.get(key)
+    if isinstance(found, bool | str) or (isinstance(found, int | float) and is_finite(found)):
+        return found
+    raise JsonError(f"{key}: expected a truth, a number or a name, got {shown(found)}")
+
+
 def _field(
     value: dict[str, Json], key: str, kind: type | tuple[type, ...], default: Json = None
 ) -> Json:
     found = value.get(key, default)
     if not isinstance(found, kind) or (isinstance(found, bool) and kind is not bool):
-        raise JsonError(f"{key}: got {shown(found)}")
+        given = shown(found) if key in value else "nothing"
+        raise JsonError(f"{key}: expected {_EXPECTED[kind]}, got {given}")
     return found

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geswarm.rules.control_table import ControlTable, Indexing
+from geswarm.rules.control_table import ControlTable
 from geswarm.rules.english import join_phrases
-from geswarm.rules.model import RuleSet
+from geswarm.rules.model import RuleSet, StateChange, format_value
+from geswarm.rules.names import require_known_names
 from geswarm.rules.reachability import TOLERANCE, effective_outcomes, reachable_situations
+from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 
@@ -56,62 +58,67 @@ def first_difference(
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
-    indexing = Indexing.of(vocabulary)
-    shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
-    tables = [
-        ControlTable.compile(each, vocabulary).probabilities.reshape(shape)
-        @ effective_outcomes(vocabulary)
-        for each in (a, b)
-    ]
+    for each in (a, b):
+        require_known_names(each, vocabulary)
+    space = Space.of(vocabulary, a, b)
+    effective = effective_outcomes(space)
+    tables = [ControlTable.within(space, each).by_percepts @ effective for each in (a, b)]
     differs = (np.abs(tables[0] - tables[1]) > TOLERANCE).any(axis=2)
     for table in tables:
-        differs &= reachable_situations(table, vocabulary)
+        differs &= reachable_situations(table, space)
     if not differs.any():
         return None
-    percepts, start = divmod(int(np.argmax(differs)), shape[1])
-    behaviour, states = divmod(start, indexing.states)
+    percepts, start = divmod(int(np.argmax(differs)), space.starts)
+    behaviour, states = divmod(start, space.states)
     first, second = (
         {
-            _decision(behaviour, states, int(outcome), vocabulary): float(row[outcome])
+            _decision(behaviour, states, int(outcome), space): float(row[outcome])
             for outcome in np.argsort(-row, kind="stable")
             if row[outcome] > 0
         }
         for row in (table[percepts, start] for table in tables)
     )
-    return Difference(_situation(percepts, behaviour, states, vocabulary), first, second)
+    return Difference(_situation(percepts, behaviour, states, space), first, second)
 
 
-def _situation(percepts: int, behaviour: int, states: int, vocabulary: Vocabulary) -> str:
-    sensed = join_phrases(_percepts(percepts, vocabulary), "and")
+def _situation(percepts: int, behaviour: int, states: int, space: Space) -> str:
+    sensed = join_phrases(_percepts(percepts, space), "and")
     lasting = [
-        f"{entry.name} {'true' if states >> bit & 1 else 'false'}"
-        for bit, entry in enumerate(vocabulary.internal_states)
+        f"{entry.name} {format_value(value)}"
+        for entry, value in zip(space.internal_states, space.state_values[states], strict=True)
         if not entry.momentary
     ]
     inner = f", with {join_phrases(lasting, 'and')}" if lasting else ""
-    return f"when {sensed}, while {vocabulary.behaviours[behaviour].doing}{inner}"
+    when = f"when {sensed}, " if sensed else ""
+    return f"{when}while {_words(behaviour, space)[0]}{inner}"
 
 
-def _percepts(percepts: int, vocabulary: Vocabulary) -> Iterator[str]:
+def _percepts(percepts: int, space: Space) -> Iterator[str]:
     """Phrases for what is sensed, without the percepts that a true one already excludes."""
-    true = {entry.name for bit, entry in enumerate(vocabulary.preconditions) if percepts >> bit & 1}
-    excluded = {name for pair in vocabulary.apart if true & set(pair) for name in pair} - true
-    for entry in vocabulary.preconditions:
-        if entry.name not in excluded:
-            yield entry.holds if entry.name in true else entry.fails
+    truths = dict(zip((atom.name for atom in space.atoms), space.truths[percepts], strict=True))
+    true = {name for name, holds in truths.items() if holds}
+    apart = space.vocabulary.apart
+    excluded = {name for pair in apart if true & set(pair) for name in pair} - true
+    for atom in space.atoms:
+        if atom.name not in excluded and atom.reading not in space.vocabulary.state_names:
+            yield atom.says(bool(truths[atom.name]), space.vocabulary)
 
 
-def _decision(behaviour: int, states: int, outcome: int, vocabulary: Vocabulary) -> str:
+def _words(behaviour: int, space: Space) -> tuple[str, str]:
+    term = space.behaviours[behaviour]
+    return space.vocabulary.behaviour_names[term.name].says(term)
+
+
+def _decision(behaviour: int, states: int, outcome: int, space: Space) -> str:
     """What a robot does that comes to an outcome from a behaviour and internal states."""
-    after, states_after, restart = Indexing.of(vocabulary).describe_outcome(outcome)
-    entry = vocabulary.behaviours[after]
-    if after != behaviour:
-        phrases = [entry.start]
-    else:
-        phrases = [f"{entry.start} afresh" if restart else f"keep {entry.doing}"]
-    for bit, state in enumerate(vocabulary.internal_states):
-        if (states ^ states_after) >> bit & 1:
-            phrases.append(state.on if states_after >> bit & 1 else state.off)
+    after, states_after, restart = space.describe_outcome(outcome)
+    doing, start = _words(after, space)
+    stays = f"{start} afresh" if restart else f"keep {doing}"
+    phrases = [start if after != behaviour else stays]
+    values = zip(space.state_values[states], space.state_values[states_after], strict=True)
+    for entry, (before, now) in zip(space.internal_states, values, strict=True):
+        if before != now:
+            phrases.append(entry.says(StateChange(1.0, entry.name, now)))
     return join_phrases(phrases, "and")
 
 

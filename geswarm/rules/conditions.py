@@ -1,7 +1,12 @@
-"""Conditions on percepts as short Boolean expressions, minimised exactly (Quine-McCluskey)."""
+"""Conditions on percepts as short Boolean expressions.
+
+Minimised exactly (Quine-McCluskey) where that can be done in a moment; else by enlarging each
+conjunction as far as it goes and taking the most useful ones (as Espresso does).
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations
@@ -9,6 +14,13 @@ from typing import TypeAlias
 
 Literals: TypeAlias = tuple[tuple[str, bool], ...]
 """Percepts that must be true or false, all of them."""
+
+
+_EXACTLY = 6
+"""Up to so many names, all prime implicants are worked out."""
+_MOST_TRIES = 20_000
+"""Choices of conjunctions that are looked at."""
+_OPPOSITES = {">=": "<", ">": "<=", "==": "!="}
 
 
 @dataclass(frozen=True)
@@ -39,8 +51,16 @@ class Condition:
 def _conjunction(term: Literals) -> str:
     """What must be true comes first: it is what the eye looks for."""
     in_order = sorted(term, key=lambda literal: not literal[1])
-    words = [name if value else f"not {name}" for name, value in in_order]
+    words = [name if value else _denied(name) for name, value in in_order]
     return " and ".join(words) or "always"
+
+
+def _denied(name: str) -> str:
+    """`not ON_NEST`, and `NEIGHBOURS < 3` for `NEIGHBOURS >= 3`."""
+    for sign, opposite in _OPPOSITES.items():
+        if f" {sign} " in name:
+            return name.replace(sign, opposite)
+    return f"not {name}"
 
 
 @dataclass(frozen=True, order=True)
@@ -53,38 +73,70 @@ class _Cube:
     def covers(self, point: int) -> bool:
         return point & self.care == self.value
 
-    def merged(self, other: _Cube) -> _Cube | None:
-        """The cube that both halves make, if they differ in exactly one bit."""
-        differing = self.value ^ other.value
-        if self.care != other.care or differing.bit_count() != 1:
-            return None
-        return _Cube(self.care & ~differing, self.value & ~differing)
 
-
-def minimise(holds: Collection[int], free: Collection[int], names: tuple[str, ...]) -> Condition:
-    """The shortest condition that holds at some points and, apart from free ones, nowhere else.
+def minimise(holds: Collection[int], fails: Collection[int], names: tuple[str, ...]) -> Condition:
+    """A short condition that holds at some points and not at others; elsewhere it may do either.
 
     Fewest terms first, then fewest literals, then fewest negations, then a fixed order, so that the
-    same question always has the same answer.
+    same question always has the same answer. With many names or points, a few more may be found.
 
     Args:
         holds: Points where it must hold; bit i of a point is the value of `names[i]`.
-        free: Points where it may hold or not.
+        fails: Points where it must not.
         names: The percepts.
     """
-    points = sorted(set(holds))
-    primes = _prime_implicants({*holds, *free}, (1 << len(names)) - 1)
+    points, every = sorted(set(holds)), (1 << len(names)) - 1
+    if len(names) <= _EXACTLY:
+        primes = _prime_implicants(set(range(every + 1)).difference(fails), every)
+    else:
+        primes = sorted({_enlarged(point, fails, every) for point in points})
     useful = [prime for prime in primes if any(map(prime.covers, points))]
-    for size in range(len(points) + 1):
+    best = _shortest_cover(useful, points) or _greedy_cover(useful, points)
+    return Condition(tuple(_literals(cube, names) for cube in best))
+
+
+def _shortest_cover(cubes: list[_Cube], points: list[int]) -> tuple[_Cube, ...] | None:
+    """The shortest choice of cubes that covers all points; None if that would take too long."""
+    if not points:
+        return ()
+    tries = 0
+    for size in range(1, len(points) + 1):
+        tries += math.comb(len(cubes), size)
+        if tries > _MOST_TRIES:
+            return None
         covers = [
             chosen
-            for chosen in combinations(useful, size)
+            for chosen in combinations(cubes, size)
             if all(any(cube.covers(point) for cube in chosen) for point in points)
         ]
         if covers:
-            best = min(covers, key=_length)
-            break
-    return Condition(tuple(_literals(cube, names) for cube in best))
+            return min(covers, key=_length)
+    return None
+
+
+def _greedy_cover(cubes: list[_Cube], points: list[int]) -> tuple[_Cube, ...]:
+    """The cube that covers most of what is left, again and again; then without idle ones."""
+    chosen: list[_Cube] = []
+    left = set(points)
+    while left:
+        best = max(cubes, key=lambda cube: (sum(map(cube.covers, left)), -cube.care.bit_count()))
+        chosen.append(best)
+        left = {point for point in left if not best.covers(point)}
+    for cube in list(chosen):
+        others = [other for other in chosen if other != cube]
+        if all(any(other.covers(point) for other in others) for point in points):
+            chosen = others
+    return tuple(sorted(chosen))
+
+
+def _enlarged(point: int, fails: Collection[int], every: int) -> _Cube:
+    """The cube around a point that has as few literals as the points of `fails` allow."""
+    care = every
+    for bit in range(every.bit_length()):
+        without = care & ~(1 << bit)
+        if not any(other & without == point & without for other in fails):
+            care = without
+    return _Cube(care, point & care)
 
 
 def _prime_implicants(points: Iterable[int], every: int) -> list[_Cube]:
@@ -93,10 +145,12 @@ def _prime_implicants(points: Iterable[int], every: int) -> list[_Cube]:
     primes: set[_Cube] = set()
     while current:
         larger, absorbed = set(), set()
-        for one, other in combinations(sorted(current), 2):
-            if merged := one.merged(other):
-                larger.add(merged)
-                absorbed |= {one, other}
+        for cube in current:
+            for bit in range(every.bit_length()):
+                other = _Cube(cube.care, cube.value ^ 1 << bit)
+                if cube.care >> bit & 1 and other in current:
+                    larger.add(_Cube(cube.care & ~(1 << bit), cube.value & ~(1 << bit)))
+                    absorbed |= {cube, other}
         primes |= current - absorbed
         current = larger
     return sorted(primes)

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from geswarm.rules.control_table import FloatArray, Indexing, active_part, apply_action
-from geswarm.rules.elements import format_boolean, format_precondition, format_probability
+from geswarm.rules.control_table import active_part, apply_action
+from geswarm.rules.elements import format_probability
 from geswarm.rules.findings import Finding, Place, Severity
-from geswarm.rules.model import Action, BehaviourChange, Precondition, Rule, RuleSet
+from geswarm.rules.model import Action, Precondition, Rule, RuleSet
 from geswarm.rules.reachability import TOLERANCE, Trace, is_nothing, no_change
+from geswarm.rules.space import FloatArray, Space
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 NO_EFFECT = "no effect: the robots do the same without it"
@@ -49,7 +51,7 @@ def _finding(number: int, element: str, message: str, severity: Severity = "hint
 def _rule_findings(trace: Trace, at: int, numbers: Sequence[int]) -> Iterator[Finding]:
     """Findings about one rule, `at` among the enabled ones; `numbers` are those on the screen."""
     rule, number = trace.rules[at], numbers[at]
-    impossible = list(_impossible_preconditions(rule, trace.vocabulary))
+    impossible = list(_impossible_preconditions(rule, trace.space))
     yield from (_finding(number, *reason, "warning") for reason in impossible)
     if not rule.actions:
         yield _finding(number, "actions", "no action: this rule does nothing", "warning")
@@ -72,46 +74,50 @@ def _rule_findings(trace: Trace, at: int, numbers: Sequence[int]) -> Iterator[Fi
         yield _finding(number, "", f"no effect: {_why_idle_rule(trace, at, numbers, active)}")
 
 
-def _impossible_preconditions(rule: Rule, vocabulary: Vocabulary) -> Iterator[tuple[str, str]]:
+def _impossible_preconditions(rule: Rule, space: Space) -> Iterator[tuple[str, str]]:
     """Element and reason of each precondition that no percept can meet together with the others."""
     for index, precondition in enumerate(rule.preconditions):
+        if not space.can_hold([precondition]):
+            reason = f"{precondition} never holds"
+            yield f"precondition {index + 1}", f"{reason}: this rule never fires"
+            continue
         for earlier, other in enumerate(rule.preconditions[:index], start=1):
-            same = other.name == precondition.name
-            pair = {other.name, precondition.name}
-            if same and other.holds != precondition.holds:
-                reason = f"contradicts precondition {earlier} ({format_precondition(other)})"
-            elif (
-                precondition.holds
-                and other.holds
-                and any(pair == set(names) for names in vocabulary.apart)
-            ):
-                reason = f"{precondition.name} and {other.name} are never true together"
-            else:
+            if space.can_hold([precondition, other]):
                 continue
+            if other.percept == precondition.percept:
+                reason = f"contradicts precondition {earlier} ({other})"
+            else:
+                names = f"{_plain(precondition)} and {_plain(other)}"
+                reason = f"{names} are never true together"
             yield f"precondition {index + 1}", f"{reason}: this rule never fires"
             break
 
 
+def _plain(precondition: Precondition) -> str:
+    """A precondition in few words: `ON_NEST` for `ON_NEST == true`."""
+    return str(precondition.percept) if precondition.value is True else str(precondition)
+
+
 def _when_active(trace: Trace, at: int) -> FloatArray | None:
     """The part of the distribution in which a rule is active; None if there is none."""
-    active = trace.before[at] * active_part(trace.rules[at], trace.vocabulary)
+    active = trace.before[at] * active_part(trace.rules[at], trace.space)
     return active if active.any() else None
 
 
 def _why_never(trace: Trace, at: int) -> tuple[str, str]:
     """Element and reason of a rule that is never active although percepts could be as it asks."""
-    rule, objects = trace.rules[at], trace.vocabulary.objects
-    sensed = replace(rule, behaviours=())
-    if not (trace.before[at] * active_part(sensed, trace.vocabulary)).any():
-        index = next(
-            index
-            for index, precondition in enumerate(rule.preconditions, start=1)
-            if objects and precondition.name == objects.holding
-        )
-        return f"precondition {index}", "no robot ever holds an object: this rule never fires"
+    rule, objects = trace.rules[at], trace.space.vocabulary.objects
+    for index in range(1, len(rule.preconditions) + 1):
+        sensed = replace(rule, preconditions=rule.preconditions[:index], behaviours=())
+        if (trace.before[at] * active_part(sensed, trace.space)).any():
+            continue
+        precondition = rule.preconditions[index - 1]
+        holding = objects and precondition.percept.name == objects.holding
+        reason = "no robot ever holds an object" if holding else f"{precondition} never holds"
+        return f"precondition {index}", f"{reason}: this rule never fires"
     anywhere = replace(rule, preconditions=())
-    elsewhere = (trace.before[at] * active_part(anywhere, trace.vocabulary)).any()
-    behaviours = " or ".join(dict.fromkeys(rule.behaviours))
+    elsewhere = (trace.before[at] * active_part(anywhere, trace.space)).any()
+    behaviours = " or ".join(map(str, dict.fromkeys(rule.behaviours)))
     reason = _never_executed(behaviours, rule.preconditions if elsewhere else ())
     return "behaviours", f"{reason}: this rule never fires"
 
@@ -121,33 +127,33 @@ def _why_idle_rule(trace: Trace, at: int, numbers: Sequence[int], active: FloatA
     if (earlier := _made_idle_by(trace, at)) is not None:
         return f"rule {numbers[earlier]} makes it superfluous"
     actions, after = trace.rules[at].actions, active
-    if not any(_changes(active, action, trace.vocabulary) for action in actions):
+    if not any(_changes(active, action, trace.space) for action in actions):
         already = _already_so(actions[0]) if len(actions) == 1 else "everything is already as set"
         return f"{already} whenever it fires"
     if not any(_has_effect(trace, active, action) for action in actions):
         return f"{NOTHING_HELD} whenever it fires"
     for action in actions:
-        after = apply_action(after, action, trace.vocabulary)
+        after = apply_action(after, action, trace.space)
     if is_nothing(after - active):
         return "its actions undo one another"
     return f"{_overriding_rule(trace, at, after - active, numbers)} overrides all that it changes"
 
 
-def _changes(distribution: FloatArray, action: Action, vocabulary: Vocabulary) -> bool:
+def _changes(distribution: FloatArray, action: Action, space: Space) -> bool:
     """Whether there is anything that the action would change if it were drawn."""
-    certain = replace(action, p=1.0)
-    return not np.array_equal(apply_action(distribution, certain, vocabulary), distribution)
+    certain = _certain(action)
+    return not np.array_equal(apply_action(distribution, certain, space), distribution)
 
 
 def _has_effect(trace: Trace, distribution: FloatArray, action: Action) -> bool:
     """Whether the action would change anything that lasts if it were drawn and no rule followed."""
-    done = apply_action(distribution, replace(action, p=1.0), trace.vocabulary)
+    done = apply_action(distribution, _certain(action), trace.space)
     return not is_nothing((done - distribution) @ trace.after[-1])
 
 
 def _made_idle_by(trace: Trace, at: int) -> int | None:
     """The nearest earlier rule without which a rule would matter, on the reachable situations."""
-    change = (trace.matrices[at] - no_change(trace.vocabulary)) @ trace.after[at + 1]
+    change = (trace.matrices[at] - no_change(trace.space)) @ trace.after[at + 1]
     for earlier in reversed(range(at)):
         if not is_nothing(trace.before[earlier] @ change):
             return earlier
@@ -192,13 +198,13 @@ def _idle_behaviours(trace: Trace, at: int, number: int) -> Iterator[Finding]:
         if not trace.matters(at, replace(rule, behaviours=others)):
             index = rule.behaviours.index(behaviour) + 1
             alone = replace(rule, behaviours=(behaviour,))
-            met = (trace.before[at] * active_part(alone, trace.vocabulary)).any()
-            never = f"no effect: {_never_executed(behaviour, rule.preconditions)}"
+            met = (trace.before[at] * active_part(alone, trace.space)).any()
+            never = f"no effect: {_never_executed(str(behaviour), rule.preconditions)}"
             yield _finding(number, f"behaviour {index}", NO_EFFECT if met else never)
 
 
 def _never_executed(behaviours: str, sensed: Sequence[Precondition]) -> str:
-    sensing = f" with {' and '.join(map(format_precondition, sensed))}" if sensed else ""
+    sensing = f" with {' and '.join(map(str, sensed))}" if sensed else ""
     return f"the behaviour is never {behaviours} when this rule's turn comes{sensing}"
 
 
@@ -206,10 +212,10 @@ def _idle_actions(
     trace: Trace, at: int, numbers: Sequence[int], active: FloatArray
 ) -> Iterator[Finding]:
     """Actions without effect in a rule that has one; p near 0 is another finding."""
-    rule, vocabulary = trace.rules[at], trace.vocabulary
+    rule, space = trace.rules[at], trace.space
     for index, action in enumerate(rule.actions, start=1):
-        element, done = f"action {index}", apply_action(active, action, vocabulary)
-        if action.p > TOLERANCE and not _changes(active, action, vocabulary):
+        element, done = f"action {index}", apply_action(active, action, space)
+        if action.p > TOLERANCE and not _changes(active, action, space):
             already = f"no effect: {_already_so(action)} whenever this rule fires"
             yield _finding(numbers[at], element, already)
         elif action.p > TOLERANCE and not _has_effect(trace, active, action):
@@ -218,7 +224,7 @@ def _idle_actions(
         elif action.p > TOLERANCE:
             difference, overriding = done - active, ""
             for later, other in enumerate(rule.actions[index:], start=index + 1):
-                difference = apply_action(difference, other, vocabulary)
+                difference = apply_action(difference, other, space)
                 if is_nothing(difference @ trace.after[-1]):
                     overriding = f"action {later}"
                     break
@@ -229,33 +235,35 @@ def _idle_actions(
 
 
 def _already_so(action: Action) -> str:
-    if isinstance(action, BehaviourChange):
-        return f"the behaviour is already {action.behaviour}"
-    return f"{action.state} is already {format_boolean(action.value)}"
+    return f"{action.target or 'the behaviour'} is already {action.becomes}"
+
+
+def _certain(action: Action) -> Action:
+    changes: dict[str, Any] = {"p": 1.0}
+    return replace(action, **changes)  # type: ignore[type-var]
 
 
 def _whole_set_findings(trace: Trace) -> Iterator[Finding]:
-    vocabulary = trace.vocabulary
-    indexing = Indexing.of(vocabulary)
-    met = trace.reachable.reshape(indexing.percepts, indexing.behaviours, indexing.states)
-    for code, behaviour in enumerate(vocabulary.behaviours):
-        if not met[:, code].any():
-            yield Finding(Place(), f"no robot ever changes to {behaviour.name}", "hint")
-    if vocabulary.objects is None:
+    space = trace.space
+    met = trace.reachable.reshape(space.percepts, len(space.behaviours), space.states)
+    for at, behaviour in enumerate(space.behaviours):
+        if not met[:, at].any():
+            yield Finding(Place(), f"no robot ever changes to {behaviour}", "hint")
+    if (objects := space.vocabulary.objects) is None:
         return
-    held, objects = vocabulary.precondition_index[vocabulary.objects.holding], vocabulary.objects
-    holding = (np.arange(indexing.percepts) >> held & 1).astype(bool)
-    if not trace.reachable[holding].any():
+    if not trace.reachable[space.held].any():
         reason = f"objects are never picked up: {objects.wanting} is false from the first step on"
         yield Finding(Place(), reason, "warning")
-    elif not _ever_true(trace.before[-1][holding], objects.dropping, vocabulary):
+    elif not _ever_true(trace.before[-1][space.held], objects.dropping, space):
         reason = f"objects are never dropped: {objects.dropping} is never set while one is held"
         yield Finding(Place(), reason, "warning")
 
 
-def _ever_true(distribution: FloatArray, state: str, vocabulary: Vocabulary) -> bool:
+def _ever_true(distribution: FloatArray, state: str, space: Space) -> bool:
     """Whether any outcome has an internal state true; distribution of shape (..., outcomes)."""
-    indexing = Indexing.of(vocabulary)
-    bit = vocabulary.state_index[state]
-    columns = [o for o in range(indexing.outcomes) if indexing.describe_outcome(o)[1] >> bit & 1]
+    columns = [
+        outcome
+        for outcome in range(space.outcomes)
+        if space.state(space.describe_outcome(outcome)[1], state)
+    ]
     return bool(distribution[..., columns].any())

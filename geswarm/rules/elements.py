@@ -1,112 +1,134 @@
 """Preconditions, behaviours and actions as the paper writes them, one element at a time.
 
-The text and the YAML form of a rule set share this notation: `ON_NEST == true`, `RANDOM_WALK`,
-`p = 0.05, RANDOM_WALK`, `p = 1, DROP_OBJECT = true` (productions 7, 8, 10 and 11).
+The text and the YAML form of a rule set share this notation: `ON_NEST == true`,
+`IS_CLOSE_TO(3) == true`, `NEIGHBOURS >= 3`, `RANDOM_WALK`, `ATTRACTION(2.5)`,
+`p = 0.05, RANDOM_WALK`, `p = 1, DROP_OBJECT = true`, `p = 0.1, HUNGER += 1` (productions 7, 8, 10
+and 11). `str` of an element writes it.
 """
 
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from geswarm.rules.findings import shown
-from geswarm.rules.model import Action, BehaviourChange, Precondition, StateChange
-from geswarm.rules.names import probability_error, unknown_name
+from geswarm.rules.limits import is_finite
+from geswarm.rules.model import (
+    Action,
+    BehaviourChange,
+    Precondition,
+    StateChange,
+    Term,
+    Value,
+    format_value,
+)
+from geswarm.rules.names import probability_error
 from geswarm.rules.vocabulary import Vocabulary
 
-_NAME = r"[A-Za-z_][A-Za-z0-9_-]*"
-_PRECONDITION = re.compile(rf"(?P<name>{_NAME})\s*==\s*(?P<value>\w+)")
-_ACTION = re.compile(
-    rf"p\s*=\s*(?P<p>[^\s,]+)\s*,\s*(?P<name>{_NAME})(\s*=\s*(?P<value>\w+))?", re.IGNORECASE
-)
-_BOOLEANS = {"true": True, "false": False}
+_NAME = r"[A-Za-z_](?:[A-Za-z0-9_-]*[A-Za-z0-9_])?"
+_TERM = rf"(?P<name>{_NAME})\s*(?:\((?P<arguments>[^()]*)\))?"
+_PLAIN_TERM = re.compile(_TERM)
+_PRECONDITION = re.compile(rf"{_TERM}\s*(?P<sign>==|!=|>=|<=|>|<)\s*(?P<value>[\w.+-]+)")
+_ACTION = re.compile(r"p\s*=\s*(?P<p>[^\s,]+)\s*,\s*(?P<deed>.+)", re.IGNORECASE)
+_CHANGE = re.compile(rf"(?P<name>{_NAME})\s*(?P<sign>\+=|-=|=)\s*(?P<value>[\w.+-]+)")
+_WHOLE = re.compile(r"[+-]?[0-9]{1,15}")
 
 
 class ElementError(ValueError):
     """One element is not understood; the message says what was expected."""
 
 
-def format_precondition(precondition: Precondition) -> str:
-    """`ON_NEST == true`."""
-    return f"{precondition.name} == {format_boolean(precondition.holds)}"
-
-
-def format_action(action: Action) -> str:
-    """`p = 0.05, RANDOM_WALK` or `p = 1, DROP_OBJECT = true`."""
-    probability = f"p = {format_probability(action.p)}"
-    if isinstance(action, BehaviourChange):
-        return f"{probability}, {action.behaviour}"
-    return f"{probability}, {action.state} = {format_boolean(action.value)}"
-
-
 def format_probability(p: float) -> str:
     """The shortest text that reads back as exactly p."""
-    return repr(float(p)).removesuffix(".0")
+    return format_value(float(p))
 
 
-def format_boolean(value: bool) -> str:
-    """`true` or `false`."""
-    return "true" if value else "false"
-
-
+@lru_cache(maxsize=4096)  # evolution reads the same ones again and again
 def parse_precondition(text: str, vocabulary: Vocabulary) -> Precondition:
-    """Read `NAME == true|false`.
+    """Read `NAME == true`, `NAME(ARGUMENT) == false` or `NAME >= NUMBER`.
 
     Raises:
-        ElementError: It is not of that form or the name is unknown.
+        ElementError: It is not of that form, or not in the vocabulary.
     """
     match = _PRECONDITION.fullmatch(text.strip())
     if match is None:
-        raise ElementError(f"expected NAME == true or NAME == false, got {shown(text.strip())}")
-    known = vocabulary.precondition_index
-    if match["name"] not in known:
-        raise ElementError(unknown_name("precondition", match["name"], known))
-    return Precondition(match["name"], _boolean(match["value"]))
+        expected = "NAME == true or NAME == false"
+        if any(not isinstance(vocabulary.values_of(name)[0], bool) for name in vocabulary.percepts):
+            expected += ", or NAME >= NUMBER"
+        raise ElementError(f"expected {expected}, got {shown(text.strip())}")
+    precondition = Precondition(_term(match), _value(match["value"]), match["sign"])
+    _require(vocabulary.precondition_error(precondition))
+    return precondition
 
 
-def parse_behaviour(text: str, vocabulary: Vocabulary) -> str:
-    """Read a behaviour name.
+@lru_cache(maxsize=4096)
+def parse_behaviour(text: str, vocabulary: Vocabulary) -> Term:
+    """Read a behaviour: `NAME` or `NAME(ARGUMENT, ...)`.
 
     Raises:
-        ElementError: The name is unknown.
+        ElementError: It is not in the vocabulary.
     """
-    name = text.strip()
-    if name not in vocabulary.behaviour_index:
-        raise ElementError(unknown_name("behaviour", name, vocabulary.behaviour_index))
-    return name
+    match = _PLAIN_TERM.fullmatch(text.strip())
+    behaviour = _term(match) if match else Term(text.strip())
+    _require(vocabulary.behaviour_error(behaviour))
+    return behaviour
 
 
+@lru_cache(maxsize=4096)
 def parse_action(text: str, vocabulary: Vocabulary) -> Action:
-    """Read `p = P, BEHAVIOUR` or `p = P, STATE = true|false`.
+    """Read `p = P, BEHAVIOUR` or `p = P, STATE = VALUE`, `+=` and `-=` for counters.
 
     Raises:
-        ElementError: It is not of that form, a name is unknown or P is outside [0, 1].
+        ElementError: It is not of that form, not in the vocabulary, or P is outside [0, 1].
     """
     match = _ACTION.fullmatch(text.strip())
     if match is None:
         raise ElementError(
             f"expected p = NUMBER, BEHAVIOUR or p = NUMBER, STATE = true, got {shown(text.strip())}"
         )
-    p = _probability(match["p"])
-    name, value = match["name"], match["value"]
-    behaviours, states = vocabulary.behaviour_index, vocabulary.state_index
-    if value is None:
-        if name in states:
-            raise ElementError(f"{name} is an internal state: write {name} = true or = false")
-        if name not in behaviours:
-            raise ElementError(unknown_name("behaviour", name, behaviours))
-        return BehaviourChange(p, name)
+    p, deed = _probability(match["p"]), match["deed"].strip()
+    change = _CHANGE.fullmatch(deed)
+    behaviours, states = vocabulary.behaviour_names, vocabulary.state_names
+    if change is None:
+        if deed in states:
+            values = " or = ".join(map(format_value, states[deed].values[::-1]))
+            raise ElementError(f"{deed} is an internal state: write {deed} = {values}")
+        if _PLAIN_TERM.fullmatch(deed) is None:
+            given = shown(text.strip())
+            expected = "p = NUMBER, BEHAVIOUR or p = NUMBER, STATE = true"
+            raise ElementError(f"expected {expected}, got {given}")
+        return BehaviourChange(p, parse_behaviour(deed, vocabulary))
+    name, sign = change["name"], change["sign"]
     if name in behaviours:
-        raise ElementError(f"{name} is a behaviour: write it without = {value}")
-    if name not in states:
-        raise ElementError(unknown_name("internal state", name, states))
-    return StateChange(p, name, _boolean(value))
+        raise ElementError(f"{name} is a behaviour: write it without {sign} {change['value']}")
+    action = StateChange(p, name, _value(change["value"]), sign)
+    _require(vocabulary.change_error(action))
+    return action
 
 
-def _boolean(text: str) -> bool:
+def _require(problem: str | None) -> None:
+    if problem:
+        raise ElementError(problem)
+
+
+def _term(match: re.Match[str]) -> Term:
+    inside = match["arguments"]
+    if inside is None or not inside.strip():
+        return Term(match["name"])
+    return Term(match["name"], tuple(_value(part.strip()) for part in inside.split(",")))
+
+
+def _value(text: str) -> Value:
+    """A truth, a number or a name."""
+    if text.lower() in ("true", "false"):
+        return text.lower() == "true"
+    if _WHOLE.fullmatch(text):
+        return int(text)
     try:
-        return _BOOLEANS[text.lower()]
-    except KeyError:
-        raise ElementError(f"expected true or false, got {shown(text)}") from None
+        number = float(text)
+    except ValueError:
+        return text
+    return number if is_finite(number) else text
 
 
 def _probability(text: str) -> float:

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
-from geswarm.rules.elements import format_boolean, format_probability
+from geswarm.rules.elements import format_probability
 from geswarm.rules.model import (
     CONTROL_STEP,
     Action,
-    BehaviourChange,
     Precondition,
     Rule,
     RuleSet,
+    Term,
+    format_value,
 )
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 NEVER_SECONDS = 1e6
 """Longer mean waiting times are called never; the paper's runs last 5000 s."""
+
+_IS = {"==": "is", "!=": "is not"} | {sign: f"is {sign}" for sign in (">=", "<=", ">", "<")}
 
 
 def describe(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> list[str]:
@@ -39,58 +43,42 @@ def _condition(rule: Rule, vocabulary: Vocabulary) -> str:
     clashing = [
         entry
         for entry in preconditions
-        if Precondition(entry.name, not entry.holds) in preconditions
+        if isinstance(entry.value, bool) and replace(entry, value=not entry.value) in preconditions
     ]
     sensed = [_percept(entry, vocabulary) for entry in clashing or preconditions]
     if clashing:
         return f"never, because a robot cannot be {join_phrases(sensed, 'and')} at once:"
     parts = [f"when {join_phrases(sensed, 'and')}"] if sensed else []
     if rule.behaviours:
-        doing = [_doing(name, vocabulary) for name in dict.fromkeys(rule.behaviours)]
+        doing = [_doing(entry, vocabulary) for entry in dict.fromkeys(rule.behaviours)]
         parts.append(f"while {join_phrases(doing, 'or')}")
     return f"{', '.join(parts) or 'at any time'},"
 
 
 def _percept(precondition: Precondition, vocabulary: Vocabulary) -> str:
-    bit = vocabulary.precondition_index.get(precondition.name)
-    if bit is None:
-        return f"{precondition.name!r} is {format_boolean(precondition.holds)}"
-    entry = vocabulary.preconditions[bit]
-    return entry.holds if precondition.holds else entry.fails
+    known = vocabulary.percepts.get(precondition.percept.name)
+    if known is None:
+        value = format_value(precondition.value)
+        return f"{str(precondition.percept)!r} {_IS[precondition.comparison]} {value}"
+    return known.says(precondition)
 
 
-def _doing(name: str, vocabulary: Vocabulary) -> str:
-    code = vocabulary.behaviour_index.get(name)
-    return f"doing {name!r}" if code is None else vocabulary.behaviours[code].doing
+def _doing(behaviour: Term, vocabulary: Vocabulary) -> str:
+    known = vocabulary.behaviour_names.get(behaviour.name)
+    return known.says(behaviour)[0] if known else f"doing {str(behaviour)!r}"
 
 
 def _effects(actions: Sequence[Action], vocabulary: Vocabulary) -> str:
     """All actions in order; `then` where a later one can override an earlier one."""
     if not actions:
         return "do nothing"
-    phrases = [f"{_deed(action, vocabulary)}{_chance(action.p)}" for action in actions]
-    overriding = len(set(map(_target, actions))) < len(actions)
+    phrases = [f"{action.says(vocabulary)}{_chance(action.p)}" for action in actions]
+    overriding = len({action.target for action in actions}) < len(actions)
     if overriding:
         return ", then ".join(phrases)
     if all(action.p == 1 for action in actions):
         return join_phrases(phrases, "and")
     return ", and ".join(phrases)
-
-
-def _target(action: Action) -> str:
-    """What the action sets: the behaviour or one of the internal states."""
-    return "" if isinstance(action, BehaviourChange) else action.state
-
-
-def _deed(action: Action, vocabulary: Vocabulary) -> str:
-    if isinstance(action, BehaviourChange):
-        code = vocabulary.behaviour_index.get(action.behaviour)
-        return f"start {action.behaviour!r}" if code is None else vocabulary.behaviours[code].start
-    bit = vocabulary.state_index.get(action.state)
-    if bit is None:
-        return f"set {action.state!r} to {format_boolean(action.value)}"
-    entry = vocabulary.internal_states[bit]
-    return entry.on if action.value else entry.off
 
 
 def _chance(p: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import reprlib
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -19,6 +20,18 @@ def shown(value: object) -> str:
         return _SHORT.repr(value)
     except ValueError:  # a whole number with more digits than Python writes
         return "a number with thousands of digits"
+    except RecursionError:
+        return "something nested deeply"
+
+
+def unknown_name(kind: str, given: str, known: Iterable[str]) -> str:
+    """Message for a name that is not in the vocabulary, with the nearest one that is."""
+    known = list(known)
+    upper = given.upper().replace("-", "_")
+    by_folded = {name.upper().replace("-", "_"): name for name in known}
+    near = difflib.get_close_matches(upper, by_folded, n=1, cutoff=0.5)
+    hint = f"did you mean {by_folded[near[0]]}?" if near else f"expected {' or '.join(known)}"
+    return f"unknown {kind} {shown(given)}; {hint}"
 
 
 @dataclass(frozen=True)

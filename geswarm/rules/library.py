@@ -7,11 +7,11 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from geswarm.plain_text import NotTextError, read_file, read_stream, tidy
 from geswarm.rules.as_json import format_json, parse_json
-from geswarm.rules.findings import Finding, Place, RuleSetError
-from geswarm.rules.limits import MAX_CHARACTERS, read_beginning, require_size, too_long
+from geswarm.rules.findings import Finding, Place, RuleSetError, unknown_name
+from geswarm.rules.limits import MAX_CHARACTERS, require_size, too_long
 from geswarm.rules.model import RuleSet
-from geswarm.rules.names import unknown_name
 from geswarm.rules.text import format_text, parse_text
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.rules.yaml_form import format_yaml, parse_yaml
@@ -59,18 +59,23 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
         return load_preset(reference, vocabulary)
     source = "<stdin>" if reference == "-" else reference
     try:
-        if reference == "-":
-            text = sys.stdin.read(MAX_CHARACTERS + 1)
-        else:
-            text = read_beginning(Path(reference))
-    except UnicodeDecodeError as error:
-        reason = f"not a text file: {error.reason} at byte {error.start}"
-        raise RuleSetError([Finding(Place(source), reason)]) from error
+        text = _read_stdin() if reference == "-" else read_file(reference, MAX_CHARACTERS)
+    except NotTextError as error:
+        raise RuleSetError([Finding(Place(source), str(error))]) from error
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         hint = f"neither a file ({reason}) nor a preset ({', '.join(preset_names())})"
         raise RuleSetNotFoundError([Finding(Place(reference), hint)]) from error
     return read_rule_set(text, source, vocabulary)
+
+
+def _read_stdin() -> str:
+    if sys.stdin is None:
+        raise ValueError("standard input is closed")
+    stream = getattr(sys.stdin, "buffer", None)  # none where something else stands for it
+    if stream is None:
+        return sys.stdin.read(MAX_CHARACTERS + 1)
+    return read_stream(stream, MAX_CHARACTERS)
 
 
 def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -> RuleSet:
@@ -79,6 +84,7 @@ def read_rule_set(text: str, source: str = "", vocabulary: Vocabulary = FORAGING
     Raises:
         RuleSetError: With every problem, each with file, line, rule and element.
     """
+    text = tidy(text)
     if message := too_long(text):
         raise RuleSetError([Finding(Place(source), message)])
     if source.endswith(".json") or text.lstrip().startswith("{"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import RuleSet
@@ -13,16 +12,6 @@ MAX_CHARACTERS = 200_000
 MAX_RULES = 1000
 MAX_ELEMENTS = 1000
 """Preconditions, behaviours and actions of a rule set, all together."""
-
-
-def read_beginning(path: Path) -> str:
-    """The text of a file, or so much of it that `too_long` can be told.
-
-    Raises:
-        OSError, ValueError: It cannot be read, or is not text in UTF-8.
-    """
-    with path.open(encoding="utf-8") as file:
-        return file.read(MAX_CHARACTERS + 1)
 
 
 def too_long(text: str) -> str | None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geswarm.rules.elements import format_boolean, format_precondition, format_probability
-from geswarm.rules.model import Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.elements import format_probability
+from geswarm.rules.model import Action, Rule, RuleSet
 
 EMPTY = "ε"
 _GAP = "   "
@@ -26,8 +26,8 @@ def _rule_lines(number: int, rule: Rule) -> Iterator[str]:
     off = "" if rule.enabled else "(off) "
     yield f"R{number}  {off}{comment[0]}".rstrip()
     yield from (f"    {line}" for line in comment[1:])
-    yield _row("P", number, [format_precondition(entry) for entry in rule.preconditions])
-    yield _row("B", number, list(rule.behaviours))
+    yield _row("P", number, [str(entry) for entry in rule.preconditions])
+    yield _row("B", number, [str(entry) for entry in rule.behaviours])
     actions = [_action_cells(action) for action in rule.actions]
     for at, row in enumerate(_columns(actions) or [EMPTY]):
         yield f"{f'A{number}' if at == 0 else '':<4}{row}"
@@ -38,10 +38,9 @@ def _row(letter: str, number: int, cells: list[str]) -> str:
 
 
 def _action_cells(action: Action) -> tuple[str, str, str]:
+    kind = "state" if action.target else "behaviour"
     probability = f"p = {format_probability(action.p)}"
-    if isinstance(action, BehaviourChange):
-        return "behaviour", probability, f"B ← {action.behaviour}"
-    return "state", probability, f"{action.state} ← {format_boolean(action.value)}"
+    return kind, probability, f"{action.target or 'B'} ← {action.becomes}"
 
 
 def _columns(rows: list[tuple[str, str, str]]) -> list[str]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import yaml
 
+from geswarm.rules.findings import shown
 from geswarm.rules.limits import too_long
 
 
@@ -65,15 +66,20 @@ def value_of(node: yaml.Node) -> Any:
     """The value of a node: a scalar, a list, or a dict whose keys are text.
 
     Raises:
-        YamlError: A scalar is not what its tag says, or a key is not text.
+        YamlError: A scalar is not what its tag says, or a key is not text or is there twice.
     """
     line = node.start_mark.line + 1
     if isinstance(node, yaml.SequenceNode):
         return [value_of(item) for item in node.value]
     if isinstance(node, yaml.MappingNode):
-        if not all(isinstance(key, yaml.ScalarNode) for key, _ in node.value):
-            raise YamlError("expected text as keys", line)
-        return {key.value: value_of(value) for key, value in node.value}
+        found: dict[str, Any] = {}
+        for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise YamlError("expected text as keys", line)
+            if key.value in found:
+                raise YamlError(f"{shown(key.value)} is given twice", key.start_mark.line + 1)
+            found[key.value] = value_of(value)
+        return found
     try:
         return _Loader("").construct_object(node)
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, ArithmeticError) as error:

@@ -20,9 +20,10 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.control_table import FloatArray, Indexing, apply_rule, before_any_rule
+from geswarm.rules.control_table import apply_rule, before_any_rule
 from geswarm.rules.model import Rule, RuleSet
 from geswarm.rules.names import require_known_names
+from geswarm.rules.space import FloatArray, Space
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 TOLERANCE = 1e-12
@@ -32,63 +33,49 @@ BoolArray: TypeAlias = npt.NDArray[np.bool_]
 _Body: TypeAlias = tuple[bool, int, int]  # holding an object, behaviour, internal states
 
 
-def reachable_situations(table: FloatArray, vocabulary: Vocabulary = FORAGING) -> BoolArray:
+def reachable_situations(table: FloatArray, space: Space) -> BoolArray:
     """Mark the situations that a robot under this table can get into.
 
     Args:
         table: Outcome distributions, shape (percepts, behaviours * states, outcomes).
-        vocabulary: The names that the numbers stand for.
+        space: What the numbers stand for.
 
     Returns:
         Shape (percepts, behaviours * states).
     """
-    indexing = Indexing.of(vocabulary)
     possible = table > 0
     reachable = np.zeros(table.shape[:2], dtype=bool)
-    percepts = _percepts(False, vocabulary), _percepts(True, vocabulary)
-    start = vocabulary.behaviour_index[vocabulary.initial_behaviour]
-    found: set[_Body] = {(False, start, vocabulary.initial_states)}
+    found: set[_Body] = {(False, space.initial_behaviour, space.initial_states)}
     waiting = list(found)
     while waiting:
         holding, behaviour, states = waiting.pop()
-        column = behaviour * indexing.states + states
-        reachable[percepts[holding], column] = True
-        for outcome in np.flatnonzero(possible[percepts[holding], column].any(axis=0)):
-            after, set_states, _ = indexing.describe_outcome(int(outcome))
-            for body in _next_bodies(holding, after, set_states, vocabulary):
+        column = behaviour * space.states + states
+        percepts = _percepts(holding, states, space)
+        reachable[percepts, column] = True
+        for outcome in np.flatnonzero(possible[percepts, column].any(axis=0)):
+            after, set_states, _ = space.describe_outcome(int(outcome))
+            for body in _next_bodies(holding, after, set_states, space):
                 if body not in found:
                     found.add(body)
                     waiting.append(body)
     return reachable
 
 
-@lru_cache(maxsize=8)
-def _percepts(holding: bool, vocabulary: Vocabulary) -> list[int]:
-    """Everything that a robot can perceive while it holds an object, or while it does not."""
-    bits = vocabulary.precondition_index
-    together = [1 << bits[a] | 1 << bits[b] for a, b in vocabulary.apart]
-    held = 1 << bits[vocabulary.objects.holding] if vocabulary.objects else 0
-    return [
-        percepts
-        for percepts in range(1 << len(bits))
-        if not any(percepts & both == both for both in together)
-        and (not held or bool(percepts & held) == holding)
-    ]
+@lru_cache(maxsize=4096)
+def _percepts(holding: bool, states: int, space: Space) -> list[int]:
+    return space.perceivable(holding, states)
 
 
-def _next_bodies(
-    holding: bool, behaviour: int, states: int, vocabulary: Vocabulary
-) -> Iterator[_Body]:
+def _next_bodies(holding: bool, behaviour: int, states: int, space: Space) -> Iterator[_Body]:
     """What a robot can be like at the start of the next step; an object may be near or not."""
-    kept = states & vocabulary.lasting_states
-    if vocabulary.objects is None:
+    kept, objects = space.kept[states], space.vocabulary.objects
+    if objects is None:
         yield False, behaviour, kept
         return
-    bits = vocabulary.state_index
-    still = holding and not states >> bits[vocabulary.objects.dropping] & 1
+    still = holding and not space.state(states, objects.dropping)
     if not still:
         yield False, behaviour, kept
-    if still or states >> bits[vocabulary.objects.wanting] & 1:
+    if still or space.state(states, objects.wanting):
         yield True, behaviour, kept
 
 
@@ -98,7 +85,7 @@ class Trace:
 
     Attributes:
         rules: The enabled rules.
-        vocabulary: Their names.
+        space: What they tell apart.
         before: When the turn of each rule comes, and last after all rules: shape (percepts,
             behaviours * states, outcomes), rows of unreachable situations are zero.
         matrices: What each rule does, shape (percepts, outcomes, outcomes).
@@ -107,7 +94,7 @@ class Trace:
     """
 
     rules: tuple[Rule, ...]
-    vocabulary: Vocabulary
+    space: Space
     before: tuple[FloatArray, ...]
     matrices: tuple[FloatArray, ...]
     after: tuple[FloatArray, ...]
@@ -120,19 +107,19 @@ class Trace:
             RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
         """
         require_known_names(rule_set, vocabulary)
-        rules = rule_set.active_rules
-        before = [before_any_rule(vocabulary)]
+        rules, space = rule_set.active_rules, Space.of(vocabulary, rule_set)
+        before = [before_any_rule(space)]
         for rule in rules:
-            before.append(apply_rule(before[-1], rule, vocabulary))
-        reachable = reachable_situations(before[-1], vocabulary)[:, :, None]
-        nothing = no_change(vocabulary)
-        matrices = [apply_rule(nothing, rule, vocabulary) for rule in rules]
-        after = [effective_outcomes(vocabulary)]
+            before.append(apply_rule(before[-1], rule, space))
+        reachable = reachable_situations(before[-1], space)[:, :, None]
+        nothing = no_change(space)
+        matrices = [apply_rule(nothing, rule, space) for rule in rules]
+        after = [effective_outcomes(space)]
         for matrix in reversed(matrices):
             after.append(matrix @ after[-1])
         return cls(
             rules,
-            vocabulary,
+            space,
             tuple(distribution * reachable for distribution in before),
             tuple(matrices),
             tuple(reversed(after)),
@@ -151,12 +138,12 @@ class Trace:
     def matters(self, at: int, instead: Rule | None) -> bool:
         """Whether the step's outcome differs with another rule, or none, in the place of one."""
         turn = self.before[at]
-        replaced = turn if instead is None else apply_rule(turn, instead, self.vocabulary)
+        replaced = turn if instead is None else apply_rule(turn, instead, self.space)
         return not is_nothing((replaced - self.before[at + 1]) @ self.after[at + 1])
 
 
-@lru_cache(maxsize=8)
-def effective_outcomes(vocabulary: Vocabulary) -> FloatArray:
+@lru_cache(maxsize=64)
+def effective_outcomes(space: Space) -> FloatArray:
     """Each outcome as the one that stands for its effects, as 0/1 matrices.
 
     It is another one where nothing is held that could be dropped.
@@ -164,26 +151,22 @@ def effective_outcomes(vocabulary: Vocabulary) -> FloatArray:
     Returns:
         Shape (percepts, outcomes, outcomes), read-only.
     """
-    indexing, objects = Indexing.of(vocabulary), vocabulary.objects
-    matrices = no_change(vocabulary).copy()
-    if objects is not None:
-        held = vocabulary.precondition_index[objects.holding]
-        empty = (np.arange(indexing.percepts) >> held & 1) == 0
-        dropping = 1 << vocabulary.state_index[objects.dropping]
-        for outcome in range(indexing.outcomes):
-            behaviour, states, restart = indexing.describe_outcome(outcome)
-            same = indexing.outcome(behaviour, states & ~dropping, restart)
+    matrices = no_change(space).copy()
+    if objects := space.vocabulary.objects:
+        empty = ~space.held
+        for outcome in range(space.outcomes):
+            behaviour, states, restart = space.describe_outcome(outcome)
+            undropped = space.with_state(states, objects.dropping, False)
             matrices[empty, outcome] = 0.0
-            matrices[empty, outcome, same] = 1.0
+            matrices[empty, outcome, space.outcome(behaviour, undropped, restart)] = 1.0
     matrices.setflags(write=False)
     return matrices
 
 
-def no_change(vocabulary: Vocabulary) -> FloatArray:
+def no_change(space: Space) -> FloatArray:
     """The matrices of a rule that does nothing, shape (percepts, outcomes, outcomes)."""
-    indexing = Indexing.of(vocabulary)
-    one = np.eye(indexing.outcomes)
-    return np.broadcast_to(one, (indexing.percepts, *one.shape))
+    one = np.eye(space.outcomes)
+    return np.broadcast_to(one, (space.percepts, *one.shape))
 
 
 def is_nothing(difference: FloatArray) -> bool:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, TypeAlias
 
-from geswarm.rules.control_table import FloatArray, apply_rule
-from geswarm.rules.elements import format_action, format_precondition
+from geswarm.rules.control_table import apply_rule
 from geswarm.rules.model import Rule, RuleSet
 from geswarm.rules.reachability import Trace, effective_outcomes, is_nothing, no_change
+from geswarm.rules.space import FloatArray
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _IsSame: TypeAlias = Callable[[Rule | None], bool]
@@ -64,24 +64,24 @@ def simplify(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> Simplifica
 
 def _sweep(rules: list[Rule | None], shorten: _Shorten, target: Trace) -> list[Rule | None]:
     """Shorten the rules from the last to the first as far as `target` allows; None is no rule."""
-    vocabulary = target.vocabulary
+    space = target.space
     before = [target.before[0]]
     for rule in rules:
-        before.append(apply_rule(before[-1], rule, vocabulary) if rule else before[-1])
-    after = effective_outcomes(vocabulary)
+        before.append(apply_rule(before[-1], rule, space) if rule else before[-1])
+    after = effective_outcomes(space)
     swept = list(rules)
     for at in reversed(range(len(rules))):
         rule = rules[at]
         if rule is not None:
             swept[at] = rule = shorten(rule, partial(_is_same, target, before[at], after))
         if rule is not None:
-            after = apply_rule(no_change(vocabulary), rule, vocabulary) @ after
+            after = apply_rule(no_change(space), rule, space) @ after
     return swept
 
 
 def _is_same(target: Trace, turn: FloatArray, after: FloatArray, rule: Rule | None) -> bool:
     """Whether `rule` may stand where `turn` comes before it and `after` are the rules behind it."""
-    done = turn if rule is None else apply_rule(turn, rule, target.vocabulary)
+    done = turn if rule is None else apply_rule(turn, rule, target.space)
     return is_nothing(done @ after - target.decided)
 
 
@@ -111,10 +111,10 @@ def _removed(number: int, original: Rule, rule: Rule | None) -> Iterator[str]:
     for kind, elements, kept in (
         (
             "precondition",
-            *(map(format_precondition, each.preconditions) for each in (original, rule)),
+            *(map(str, each.preconditions) for each in (original, rule)),
         ),
-        ("behaviour", original.behaviours, rule.behaviours),
-        ("action", *(map(format_action, each.actions) for each in (original, rule))),
+        ("behaviour", *(map(str, each.behaviours) for each in (original, rule))),
+        ("action", *(map(str, each.actions) for each in (original, rule))),
     ):
         for element in (Counter(elements) - Counter(kept)).elements():
             yield f"rule {number}: {kind} {element}"

@@ -25,10 +25,10 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.conditions import Condition, minimise
-from geswarm.rules.control_table import Indexing
-from geswarm.rules.model import CONTROL_STEP, RuleSet
+from geswarm.rules.model import CONTROL_STEP, RuleSet, StateChange, Term, Value, format_value
 from geswarm.rules.notebook import as_html
 from geswarm.rules.reachability import TOLERANCE, Trace, effective_outcomes
+from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 IntArray: TypeAlias = npt.NDArray[np.int64]
@@ -47,20 +47,26 @@ class State:
         column: Behaviour and internal states, as the control table numbers them.
     """
 
-    behaviour: str
-    internal: tuple[tuple[str, bool], ...]
+    behaviour: Term
+    internal: tuple[tuple[str, Value], ...]
     initial: bool
     column: int
 
     @property
     def marks(self) -> tuple[str, ...]:
-        """The internal states: `not WANT_OBJECT`."""
-        return tuple(name if value else f"not {name}" for name, value in self.internal)
+        """The internal states: `not WANT_OBJECT`, `HUNGER = 3`."""
+        return tuple(_mark(name, value) for name, value in self.internal)
 
     @property
     def label(self) -> str:
         """`RANDOM_WALK`, or `RANDOM_WALK, not WANT_OBJECT`."""
-        return ", ".join([self.behaviour, *self.marks])
+        return ", ".join([str(self.behaviour), *self.marks])
+
+
+def _mark(name: str, value: Value) -> str:
+    if isinstance(value, bool):
+        return name if value else f"not {name}"
+    return f"{name} = {format_value(value)}"
 
 
 @dataclass(frozen=True)
@@ -72,7 +78,8 @@ class Transition:
         target: Index of the state after; the same as `source` for a loop, which has an effect.
         condition: The percepts for which it can happen.
         probability: Per control step in which the condition holds.
-        effects: Momentary internal states that are set; `DROP_OBJECT` only where one is held.
+        effects: Momentary internal states that are set, and to what; `DROP_OBJECT` only where
+            an object is held.
         restarts: A loop that begins the behaviour afresh (random walk: a new heading).
         rules: Numbers of the rules that bring it about, from 1.
     """
@@ -81,7 +88,7 @@ class Transition:
     target: int
     condition: Condition
     probability: float
-    effects: tuple[str, ...]
+    effects: tuple[tuple[str, Value], ...]
     restarts: bool
     rules: tuple[int, ...]
 
@@ -109,21 +116,20 @@ class _Event:
     """
 
     column: int
-    effects: tuple[str, ...]
+    effects: tuple[tuple[str, Value], ...]
     restarts: bool
 
     @classmethod
-    def of(cls, outcome: int, column: int, vocabulary: Vocabulary) -> _Event:
+    def of(cls, outcome: int, column: int, space: Space) -> _Event:
         """What an outcome, as the control table numbers them, is to a robot in a column."""
-        indexing = Indexing.of(vocabulary)
-        behaviour, states, restart = indexing.describe_outcome(outcome)
+        behaviour, states, restart = space.describe_outcome(outcome)
         effects = tuple(
-            entry.name
-            for bit, entry in enumerate(vocabulary.internal_states)
-            if entry.momentary and states >> bit & 1
+            (entry.name, value)
+            for entry, value in zip(space.internal_states, space.state_values[states], strict=True)
+            if entry.momentary and value != entry.initially
         )
-        after = behaviour * indexing.states + (states & vocabulary.lasting_states)
-        same = behaviour == column // indexing.states
+        after = behaviour * space.states + space.kept[states]
+        same = behaviour == column // space.states
         return cls(after, effects, restart and same)
 
 
@@ -136,13 +142,13 @@ class StateMachine:
         states: In the order of the vocabulary.
         transitions: By source, then target; what remains to 1 in a state is the probability that
             nothing happens.
-        vocabulary: The names.
+        space: What the rules tell apart.
     """
 
     name: str
     states: tuple[State, ...]
     transitions: tuple[Transition, ...]
-    vocabulary: Vocabulary
+    space: Space
 
     @classmethod
     def of(cls, rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> StateMachine:
@@ -157,7 +163,11 @@ class StateMachine:
             for source in range(len(reader.states))
             for transition in reader.transitions_from(source)
         )
-        return cls(rule_set.name, reader.states, transitions, vocabulary)
+        return cls(rule_set.name, reader.states, transitions, reader.space)
+
+    def position(self, behaviour: Term) -> int:
+        """Position of a behaviour's name in the vocabulary, which pictures colour it by."""
+        return self.space.vocabulary.behaviour_index[behaviour.name]
 
     def transitions_from(self, source: int) -> tuple[Transition, ...]:
         """The transitions that leave a state, loops among them."""
@@ -180,12 +190,11 @@ class StateMachine:
         none of the states.
 
         Args:
-            behaviour: Behaviour codes, shape (robots,).
-            internal_states: Internal states as bits, shape (robots,).
+            behaviour: Numbers of the behaviours in `space`, shape (robots,).
+            internal_states: Numbers of the internal states, shape (robots,).
         """
-        indexing = Indexing.of(self.vocabulary)
-        columns = behaviour.astype(np.int64) * indexing.states + internal_states
-        robots = np.bincount(columns, minlength=indexing.behaviours * indexing.states)
+        columns = behaviour.astype(np.int64) * self.space.states + internal_states
+        robots = np.bincount(columns, minlength=self.space.starts)
         return robots[[state.column for state in self.states]]
 
     def times_taken(self, decisions: IntArray) -> IntArray:
@@ -203,38 +212,36 @@ class StateMachine:
     @cached_property
     def _transition_of(self) -> IntArray:
         """The transition that each outcome is, -1 for none; shape (situations, outcomes)."""
-        indexing = Indexing.of(self.vocabulary)
-        becomes = effective_outcomes(self.vocabulary).argmax(axis=2)
+        space = self.space
+        becomes = effective_outcomes(space).argmax(axis=2)
         columns = [state.column for state in self.states]
         alike: dict[tuple[int, _Event], list[int]] = defaultdict(list)
         for at, entry in enumerate(self.transitions):
             event = _Event(columns[entry.target], entry.effects, entry.restarts)
             alike[columns[entry.source], event].append(at)
-        shape = (indexing.percepts, indexing.behaviours * indexing.states, indexing.outcomes)
-        found = np.full(shape, -1)
+        found = np.full((space.percepts, space.starts, space.outcomes), -1)
+        names = [atom.name for atom in space.atoms]
         for percepts, outcome in np.ndindex(becomes.shape):
-            sensed = {
-                name: bool(percepts >> bit & 1)
-                for name, bit in self.vocabulary.precondition_index.items()
-            }
+            sensed = dict(zip(names, map(bool, space.truths[percepts]), strict=True))
             for column in columns:
-                event = _Event.of(int(becomes[percepts, outcome]), column, self.vocabulary)
+                event = _Event.of(int(becomes[percepts, outcome]), column, space)
                 for at in alike.get((column, event), ()):
                     if self.transitions[at].condition.holds(sensed):
                         found[percepts, column, outcome] = at
-        return found.reshape(indexing.situations, indexing.outcomes)
+        return found.reshape(space.situations, space.outcomes)
 
     def effects(self, transition: Transition) -> tuple[str, ...]:
         """What a transition does besides changing the state, in words."""
-        vocabulary = self.vocabulary
+        vocabulary = self.space.vocabulary
         phrases = [
-            vocabulary.internal_states[vocabulary.state_index[name]].on
-            for name in transition.effects
+            vocabulary.state_names[name].says(StateChange(1.0, name, value))
+            for name, value in transition.effects
         ]
         if transition.restarts:
             behaviour = self.states[transition.target].behaviour
-            entry = vocabulary.behaviours[vocabulary.behaviour_index[behaviour]]
-            phrases.append(f"{entry.start} afresh")
+            phrases.append(
+                f"{vocabulary.behaviour_names[behaviour.name].says(behaviour)[1]} afresh"
+            )
         return tuple(phrases)
 
     def describe(self, transition: Transition) -> str:
@@ -253,49 +260,43 @@ class _Reader:
     """Reads states and transitions off a trace of the rule set."""
 
     def __init__(self, rule_set: RuleSet, vocabulary: Vocabulary) -> None:
-        self.vocabulary = vocabulary
-        self.indexing = Indexing.of(vocabulary)
         self.trace = Trace.of(rule_set, vocabulary)
+        self.space = self.trace.space
         self.decided = self.trace.decided
         self.before, self.after = np.stack(self.trace.before), np.stack(self.trace.after)
-        stays = np.eye(self.indexing.outcomes, dtype=bool)
+        stays = np.eye(self.space.outcomes, dtype=bool)
         self.moves = np.array([(matrix > 0) & ~stays for matrix in self.trace.matrices])
         self.numbers = [at for at, rule in enumerate(rule_set.rules, start=1) if rule.enabled]
-        self.names = tuple(entry.name for entry in vocabulary.preconditions)
+        self.names = tuple(atom.name for atom in self.space.atoms)
         self.columns = [int(column) for column in np.flatnonzero(self.trace.reachable.any(axis=0))]
-        self.relevant = self._relevant_bits()
+        self.relevant = self._relevant_states()
         self.states = tuple(map(self._state, self.columns))
+        places = 1 << np.arange(len(self.names))
+        self.points = (self.space.truths @ places).tolist()
 
-    def _relevant_bits(self) -> list[int]:
-        """The internal states that have both values at the start of some step."""
-        seen = [column % self.indexing.states for column in self.columns]
-        return [
-            bit
-            for bit in range(len(self.vocabulary.internal_states))
-            if len({states >> bit & 1 for states in seen}) == 2
-        ]
+    def _relevant_states(self) -> list[int]:
+        """Positions of the internal states that have several values at the start of some step."""
+        seen = {self.space.state_values[column % self.space.states] for column in self.columns}
+        return [at for at, values in enumerate(zip(*seen, strict=True)) if len(set(values)) > 1]
 
     def _state(self, column: int) -> State:
-        behaviour, states = divmod(column, self.indexing.states)
-        name = self.vocabulary.behaviours[behaviour].name
+        space = self.space
+        behaviour, states = divmod(column, space.states)
+        values = space.state_values[states]
         return State(
-            name,
-            tuple(
-                (self.vocabulary.internal_states[bit].name, bool(states >> bit & 1))
-                for bit in self.relevant
-            ),
-            initial=name == self.vocabulary.initial_behaviour
-            and states == self.vocabulary.initial_states,
+            space.behaviours[behaviour],
+            tuple((space.internal_states[at].name, values[at]) for at in self.relevant),
+            initial=behaviour == space.initial_behaviour and states == space.initial_states,
             column=column,
         )
 
     def transitions_from(self, source: int) -> Iterator[Transition]:
         """Everything that can happen in a state, the same probabilities merged."""
         column = self.columns[source]
-        reachable = np.flatnonzero(self.trace.reachable[:, column])
-        free = set(range(self.indexing.percepts)) - set(map(int, reachable))
+        reachable = [int(at) for at in np.flatnonzero(self.trace.reachable[:, column])]
+        points = {self.points[percepts] for percepts in reachable}
         percepts_of: dict[tuple[_Event, float], list[int]] = defaultdict(list)
-        for percepts in map(int, reachable):
+        for percepts in reachable:
             for event, probability in self._events(percepts, column).items():
                 if probability > TOLERANCE and event != _Event(column, (), False):
                     percepts_of[event, round(probability, _DIGITS)].append(percepts)
@@ -307,19 +308,23 @@ class _Reader:
             yield Transition(
                 source,
                 self.columns.index(event.column),
-                minimise(where, free, self.names),
+                self._condition(where, points),
                 probability,
                 event.effects,
                 event.restarts,
                 self._rules_behind(where, column, event),
             )
 
+    def _condition(self, where: list[int], points: set[int]) -> Condition:
+        holds = {self.points[at] for at in where}
+        return minimise(holds, points - holds, self.names)
+
     def _events(self, percepts: int, column: int) -> dict[_Event, float]:
         """Probability of everything that can happen in one situation."""
         events: dict[_Event, float] = defaultdict(float)
         row = self.decided[percepts, column]
         for outcome in np.flatnonzero(row):
-            event = _Event.of(int(outcome), column, self.vocabulary)
+            event = _Event.of(int(outcome), column, self.space)
             events[event] += float(row[outcome])
         return events
 
@@ -330,7 +335,7 @@ class _Reader:
             finals = [
                 outcome
                 for outcome in map(int, np.flatnonzero(self.decided[percepts, column]))
-                if _Event.of(outcome, column, self.vocabulary) == event
+                if _Event.of(outcome, column, self.space) == event
             ]
             come_by = self.before[:-1, percepts, column] > 0
             lead_there = self.after[1:, percepts][:, :, finals].sum(axis=2) > 0

@@ -21,17 +21,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+from geswarm.plain_text import tidy
 from geswarm.rules.elements import (
     ElementError,
-    format_action,
-    format_precondition,
     parse_action,
     parse_behaviour,
     parse_precondition,
 )
 from geswarm.rules.findings import Finding, Place, RuleSetError, shown
 from geswarm.rules.limits import is_finite
-from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet
+from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet, Term
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _TOKEN = re.compile(
@@ -71,11 +70,11 @@ def _comment_lines(comment: str) -> list[str]:
 def _rule_lines(rule: Rule) -> Iterator[str]:
     yield "rule" if rule.enabled else "rule off"
     if rule.preconditions:
-        yield "  if " + " and ".join(map(format_precondition, rule.preconditions))
+        yield "  if " + " and ".join(map(str, rule.preconditions))
     if rule.behaviours:
-        yield "  while " + " or ".join(rule.behaviours)
+        yield "  while " + " or ".join(map(str, rule.behaviours))
     for action in rule.actions:
-        yield "  do " + format_action(action)
+        yield "  do " + str(action)
 
 
 def parse_text(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -> RuleSet:
@@ -108,7 +107,7 @@ class _Phrase:
 def _phrases(text: str) -> Iterator[_Phrase]:
     """Cut the text at its keywords; a comment behind a phrase goes with that phrase."""
     phrase: _Phrase | None = None
-    for number, line in enumerate(text.split("\n"), start=1):
+    for number, line in enumerate(tidy(text).split("\n"), start=1):
         for match in _TOKEN.finditer(line):
             if match.lastgroup == "comment":
                 comment = match[0][1:].removeprefix(" ")
@@ -141,7 +140,7 @@ class _Draft:
     enabled: bool = True
     stage: str = "rule"
     preconditions: list[Precondition] = field(default_factory=list)
-    behaviours: list[str] = field(default_factory=list)
+    behaviours: list[Term] = field(default_factory=list)
     actions: list[Action] = field(default_factory=list)
     elements: Counter[str] = field(default_factory=Counter)
 
@@ -166,11 +165,11 @@ class _Parser:
         self.name = ""
         self.comment: list[str] = []
         self.origin = Origin()
-        self.has_header = False
+        self.headers: set[str] = set()
         self.pending: list[str] = []  # lines of comment whose owner comes next
 
     def rule_set(self) -> RuleSet:
-        if not self.drafts and not self.has_header and not self.findings:
+        if not self.drafts and not self.headers and not self.findings:
             self.report(1, "expected at least one rule, for example: rule do p = 1, PHOTOTAXIS")
         if self.findings:
             raise RuleSetError(self.findings)
@@ -201,7 +200,9 @@ class _Parser:
         if self.drafts:
             self.report(phrase.line, f"{phrase.keyword} must stand before the first rule")
             return
-        self.has_header = True
+        if phrase.keyword in self.headers:
+            self.report(phrase.line, f"{phrase.keyword} is given twice")
+        self.headers.add(phrase.keyword)
         self.comment += self.pending + phrase.comments
         self.pending = []
         try:
@@ -276,6 +277,8 @@ def _origin(text: str) -> Origin:
                 f"separated by commas, got {shown(text[at:])}"
             )
         key, value = match.groups()
+        if key in parts:
+            raise ElementError(f"{key} is given twice")
         parts[key] = _string(value) if _ORIGIN_TYPES[key] is str else _number(key, value)
         at = match.end()
     return Origin(**parts)

@@ -1,7 +1,6 @@
-"""The names that rules are made of (paper, section 3.1.1), as data.
+"""Vocabularies: everything that the rules of a scenario may mention, as data.
 
-Grammar, parser, editor, control table and kernels all read the vocabulary from here. Positions
-matter: percept bits, behaviour codes and internal-state bits are the indices into these tuples.
+Grammar, parser, checks, editor and control table all read a vocabulary.
 """
 
 from __future__ import annotations
@@ -9,70 +8,30 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-
-@dataclass(frozen=True)
-class PreconditionName:
-    """A percept that a rule may test, with the phrases that say it holds or does not."""
-
-    name: str
-    holds: str
-    fails: str
-
-
-@dataclass(frozen=True)
-class BehaviourName:
-    """A low-level behaviour that a robot executes.
-
-    Attributes:
-        name: As written in rules.
-        doing: Phrase that describes it.
-        start: Phrase for changing to it.
-        restarts: True if switching into it starts something afresh (random walk: a new heading).
-    """
-
-    name: str
-    doing: str
-    start: str
-    restarts: bool = False
+from geswarm.rules.arguments import Argument
+from geswarm.rules.declarations import (
+    BOOLEAN,
+    BehaviourName,
+    InternalStateName,
+    ObjectNames,
+    PreconditionName,
+    Reading,
+)
+from geswarm.rules.findings import shown, unknown_name
+from geswarm.rules.model import (
+    COMPARISONS,
+    OPERATIONS,
+    Precondition,
+    StateChange,
+    Term,
+    Value,
+    format_value,
+)
 
 
-@dataclass(frozen=True)
-class InternalStateName:
-    """An internal state variable.
-
-    Attributes:
-        name: As written in rules.
-        on: Phrase for setting it true.
-        off: Phrase for setting it false.
-        initially: Value at the start of a run.
-        momentary: True if it is false again after every control step.
-    """
-
-    name: str
-    on: str
-    off: str
-    initially: bool = False
-    momentary: bool = False
-
-
-@dataclass(frozen=True)
-class ObjectNames:
-    """How rules see and move the object that a robot carries.
-
-    Attributes:
-        holding: The percept that is true exactly while the robot carries an object.
-        wanting: The internal state without which no object is picked up.
-        dropping: The internal state that drops the object at the end of the step.
-    """
-
-    holding: str
-    wanting: str
-    dropping: str
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """Everything that a rule may mention; the order fixes bits and codes.
+    """Everything that a rule may mention, in the order in which it is offered.
 
     Attributes:
         preconditions: Percepts.
@@ -82,6 +41,8 @@ class Vocabulary:
         initial_behaviour: Behaviour at the start of a run.
         apart: Pairs of percepts that never hold together.
         objects: What carries, wants and drops objects; None if there are none.
+        readings: Of the sensors, but for those that a percept of the same name makes true or false.
+        name: What it is called; rule sets may say for which vocabulary they were written.
     """
 
     preconditions: tuple[PreconditionName, ...]
@@ -91,31 +52,119 @@ class Vocabulary:
     initial_behaviour: str
     apart: tuple[tuple[str, str], ...] = ()
     objects: ObjectNames | None = None
+    readings: tuple[Reading, ...] = ()
+    name: str = ""
+
+    @cached_property
+    def percepts(self) -> dict[str, PreconditionName]:
+        """What can be compared, by name: the preconditions, and readable internal states."""
+        states = {
+            entry.name: entry.as_percept() for entry in self.internal_states if entry.readable
+        }
+        return states | {entry.name: entry for entry in self.preconditions}
 
     @cached_property
     def precondition_index(self) -> dict[str, int]:
-        """Percept bit of each precondition name."""
-        return {entry.name: bit for bit, entry in enumerate(self.preconditions)}
+        """Position of each precondition name."""
+        return {entry.name: at for at, entry in enumerate(self.preconditions)}
 
     @cached_property
     def behaviour_index(self) -> dict[str, int]:
-        """Code of each behaviour name."""
-        return {entry.name: code for code, entry in enumerate(self.behaviours)}
+        """Position of each behaviour name."""
+        return {entry.name: at for at, entry in enumerate(self.behaviours)}
 
     @cached_property
     def state_index(self) -> dict[str, int]:
-        """Bit of each internal-state name."""
-        return {entry.name: bit for bit, entry in enumerate(self.internal_states)}
+        """Position of each internal state's name."""
+        return {entry.name: at for at, entry in enumerate(self.internal_states)}
 
     @cached_property
-    def initial_states(self) -> int:
-        """Internal states at the start of a run, as bits."""
-        return sum(entry.initially << bit for bit, entry in enumerate(self.internal_states))
+    def behaviour_names(self) -> dict[str, BehaviourName]:
+        """The behaviours by name."""
+        return {entry.name: entry for entry in self.behaviours}
 
     @cached_property
-    def lasting_states(self) -> int:
-        """Mask of the internal states that survive the end of a control step."""
-        return sum((not entry.momentary) << bit for bit, entry in enumerate(self.internal_states))
+    def state_names(self) -> dict[str, InternalStateName]:
+        """The internal states by name."""
+        return {entry.name: entry for entry in self.internal_states}
+
+    @cached_property
+    def readings_by_name(self) -> dict[str, Reading]:
+        """All readings: of sensors, of percepts that are their own, and of internal states."""
+        own = [Reading(entry.name) for entry in self.preconditions if not entry.reading]
+        states = [Reading(each.name, each.values) for each in self.internal_states if each.readable]
+        return {entry.name: entry for entry in (*own, *self.readings, *states)}
+
+    def reading_of(self, percept: str) -> Reading:
+        """What a percept looks at."""
+        return self.readings_by_name[self.percepts[percept].reading or percept]
+
+    def values_of(self, percept: str) -> tuple[Value, ...]:
+        """What a percept can be compared with."""
+        return BOOLEAN if self.percepts[percept].truth else self.reading_of(percept).values
+
+    def comparisons_of(self, percept: str) -> tuple[str, ...]:
+        """How a percept can be compared."""
+        if isinstance(self.values_of(percept)[0], bool | str):
+            return "==", "!="
+        return tuple(COMPARISONS)
+
+    def holds(self, precondition: Precondition, value: Value) -> bool:
+        """Whether a precondition holds when the reading that it looks at has a value."""
+        entry = self.percepts[precondition.percept.name]
+        sensed = entry.truth(value, *precondition.percept.arguments) if entry.truth else value
+        return COMPARISONS[precondition.comparison](sensed, precondition.value)
+
+    def precondition_error(self, precondition: Precondition) -> str | None:
+        """Why a precondition cannot be used, or None."""
+        name = precondition.percept.name
+        if name not in self.percepts:
+            return unknown_name("precondition", name, self.percepts)
+        if problem := _arguments_error(precondition.percept, self.percepts[name].arguments):
+            return problem
+        comparisons = self.comparisons_of(name)
+        if precondition.comparison not in comparisons:
+            expected = " or ".join(comparisons)
+            return f"expected {expected} after {name}, got {shown(precondition.comparison)}"
+        return _value_error(precondition.value, self.values_of(name))
+
+    def behaviour_error(self, behaviour: Term) -> str | None:
+        """Why a behaviour cannot be used, or None."""
+        if behaviour.name not in self.behaviour_names:
+            return unknown_name("behaviour", behaviour.name, self.behaviour_names)
+        return _arguments_error(behaviour, self.behaviour_names[behaviour.name].arguments)
+
+    def change_error(self, change: StateChange) -> str | None:
+        """Why a change of an internal state cannot be made, or None."""
+        if change.state not in self.state_names:
+            return unknown_name("internal state", change.state, self.state_names)
+        entry = self.state_names[change.state]
+        operations = OPERATIONS if entry.counts else OPERATIONS[:1]
+        if change.operation not in operations:
+            expected = " or ".join(operations)
+            return f"expected {expected} after {change.state}, got {shown(change.operation)}"
+        return _value_error(change.value, entry.values)
+
+
+def _value_error(value: Value, values: tuple[Value, ...]) -> str | None:
+    if any(value == each and type(value) is type(each) for each in values):
+        return None
+    if isinstance(values[0], bool | str):
+        names = map(format_value, values if isinstance(values[0], str) else values[::-1])
+        expected = " or ".join(names)
+    else:
+        expected = f"a whole number from {values[0]} to {values[-1]}"
+    return f"expected {expected}, got {shown(value)}"
+
+
+def _arguments_error(term: Term, arguments: tuple[Argument, ...]) -> str | None:
+    if len(term.arguments) != len(arguments):
+        expected = Term(term.name, tuple(each.name for each in arguments))
+        what = f"expected {expected}" if arguments else "expected no arguments"
+        return f"{term.name}: {what}, got {term}"
+    problems = map(lambda each, value: each.problem(value), arguments, term.arguments)
+    problem = next(filter(None, problems), None)
+    return problem and f"{term.name}: {problem}"
 
 
 FORAGING = Vocabulary(
@@ -141,4 +190,6 @@ FORAGING = Vocabulary(
     initial_behaviour="RANDOM_WALK",
     apart=(("ON_NEST", "ON_SOURCE"),),
     objects=ObjectNames("HAS_OBJECT", wanting="WANT_OBJECT", dropping="DROP_OBJECT"),
+    name="foraging",
 )
+"""The paper's (section 3.1.1)."""

@@ -19,16 +19,13 @@ import yaml
 
 from geswarm.rules.elements import (
     ElementError,
-    format_action,
-    format_precondition,
     parse_action,
     parse_behaviour,
     parse_precondition,
 )
-from geswarm.rules.findings import Finding, Place, RuleSetError, shown
+from geswarm.rules.findings import Finding, Place, RuleSetError, shown, unknown_name
 from geswarm.rules.limits import is_finite
 from geswarm.rules.model import Origin, Rule, RuleSet
-from geswarm.rules.names import unknown_name
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -64,10 +61,10 @@ def _rule_document(rule: Rule) -> dict[str, Any]:
     if not rule.enabled:
         document["enabled"] = False
     if rule.preconditions:
-        document["if"] = _InRow(map(format_precondition, rule.preconditions))
+        document["if"] = _InRow(map(str, rule.preconditions))
     if rule.behaviours:
-        document["while"] = _InRow(rule.behaviours)
-    document["do"] = [format_action(action) for action in rule.actions]
+        document["while"] = _InRow(map(str, rule.behaviours))
+    document["do"] = [str(action) for action in rule.actions]
     return document
 
 
@@ -208,9 +205,10 @@ class _Reader:
                 self.report(key, unknown_name("key", name, known))
             elif name in parts:
                 self.report(key, f"{name} is given twice")
-            elif value.tag != "tag:yaml.org,2002:null":
+            else:
                 parts[name] = value
-        return parts
+        null = "tag:yaml.org,2002:null"
+        return {name: value for name, value in parts.items() if value.tag != null}
 
     def sequence(self, node: yaml.Node | None, what: str) -> list[yaml.Node]:
         if isinstance(node, yaml.SequenceNode):

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.control_table import ControlTable
-from geswarm.rules.model import CONTROL_STEP, Action, BehaviourChange, Rule, RuleSet
+from geswarm.rules.model import CONTROL_STEP, Action, Rule, RuleSet
 from geswarm.rules.names import require_known_names
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim import footbot
@@ -129,10 +129,10 @@ def encode_tables(tables: Sequence[ControlTable], zone_miss: float) -> Words:
         ValueError: A table is for another vocabulary than the one that the simulator implements.
     """
     for number, table in enumerate(tables):
-        if table.vocabulary != FORAGING:
+        if table.space.vocabulary is not FORAGING:
             raise ValueError(
                 f"tables[{number}]: expected the foraging vocabulary, got one with "
-                f"{', '.join(table.vocabulary.behaviour_index)}"
+                f"{', '.join(table.space.vocabulary.behaviour_index)}"
             )
     probabilities = np.stack([table.probabilities for table in tables])
     outcomes = probabilities.shape[2]
@@ -186,22 +186,23 @@ def _percepts(rule: Rule, vocabulary: Vocabulary, value: bool) -> int:
     """Mask of the percepts that the rule expects to have this value."""
     mask = 0
     for precondition in rule.preconditions:
-        if precondition.holds == value:
-            mask |= 1 << vocabulary.precondition_index[precondition.name]
+        if vocabulary.holds(precondition, value):
+            mask |= 1 << vocabulary.precondition_index[precondition.percept.name]
     return mask
 
 
 def _behaviours(rule: Rule, vocabulary: Vocabulary) -> int:
     """Mask of the behaviours in which the rule may be active."""
     mask = 0
-    for name in rule.behaviours or vocabulary.behaviour_index:
+    names = [behaviour.name for behaviour in rule.behaviours]
+    for name in names or vocabulary.behaviour_index:
         mask |= 1 << vocabulary.behaviour_index[name]
     return mask
 
 
 def _effect(action: Action, vocabulary: Vocabulary) -> tuple[int, int, int]:
     """(behaviour to change to or -1, internal-state bits to clear, bits to set)."""
-    if isinstance(action, BehaviourChange):
-        return vocabulary.behaviour_index[action.behaviour], 0, 0
-    bit = 1 << vocabulary.state_index[action.state]
-    return -1, bit, bit if action.value else 0
+    if not action.target:
+        return vocabulary.behaviour_index[action.becomes], 0, 0
+    bit = 1 << vocabulary.state_index[action.target]
+    return -1, bit, bit if action.becomes == "true" else 0

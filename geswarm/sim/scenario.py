@@ -9,9 +9,8 @@ from typing import Any
 
 import yaml
 
-from geswarm.rules.findings import Finding, Place
+from geswarm.rules.findings import Finding, Place, unknown_name
 from geswarm.rules.model import CONTROL_STEP, clean_line
-from geswarm.rules.names import unknown_name
 from geswarm.sim import scenario_file
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
 

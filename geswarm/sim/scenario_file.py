@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from geswarm.plain_text import NotTextError, read_file
 from geswarm.rules.findings import Finding, Place, shown
-from geswarm.rules.limits import read_beginning
+from geswarm.rules.limits import MAX_CHARACTERS
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
 
@@ -101,12 +102,12 @@ class _Reader:
             self.wrong(place, f"scenarios extend each other in a circle: {chain}")
             return {}
         try:
-            text = read_beginning(path)
+            text = read_file(path, MAX_CHARACTERS)
         except OSError as error:
             self.wrong(place, f"cannot read {path}: {error.strerror}")
             return {}
-        except UnicodeDecodeError:
-            self.wrong(Place(_shown(path)), "not a text file in UTF-8")
+        except NotTextError as error:
+            self.wrong(Place(_shown(path)), str(error))
             return {}
         return self.text(text, _shown(path), path.parent, (*trail, path.resolve()))
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.control_table import Indexing
 from geswarm.rules.model import CONTROL_STEP, RuleSet
+from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING
 from geswarm.sim.compiled import run_world, start_world
 from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
@@ -19,7 +19,7 @@ from geswarm.sim.scenario import Scenario
 NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")
 """Parameters of a scenario that a run cannot go on with if they change."""
 
-_INDEXING = Indexing.of(FORAGING)
+_SPACE = Space.of(FORAGING)
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ class World:
         """How often robots came from each situation to each outcome since the rules were set.
 
         What `ControlTable.probabilities` says of them, counted; a read-only copy, shape
-        (situations, outcomes), numbered by `geswarm.rules.Indexing`.
+        (situations, outcomes), numbered by `geswarm.rules.Space`.
         """
         return _frozen(self._decisions)
 
@@ -192,7 +192,7 @@ class World:
         """
         self._rules, self._actions = encode_rules(rule_set)
         self._rule_set = rule_set
-        self._decisions = np.zeros((_INDEXING.situations, _INDEXING.outcomes), dtype=np.int64)
+        self._decisions = np.zeros((_SPACE.situations, _SPACE.outcomes), dtype=np.int64)
         self._robots["last_rule"] = -1
 
     def set_scenario(self, scenario: Scenario) -> bool:

@@ -92,17 +92,25 @@ export function focusAnswer(asker, answer) {
  * Bring components in line with data, moving and reusing them so that focus and typing survive.
  *
  * A component goes where its data has gone: first equal data at the same position, then equal data
- * elsewhere, then whatever is left over in its order.
+ * elsewhere, then whatever is left over in its order. One in which somebody types (`typing`) takes no
+ * other data than its own, equal or changed: what is typed must not get to something else.
  *
  * @template T
- * @typedef {{node: Element, index: number, key?: string, update: (item: T, index: number) => void}} Component
+ * @typedef {object} Component
+ * @property {Element} node
+ * @property {number} index
+ * @property {string} [key]
+ * @property {(item: T, index: number) => void} update
+ * @property {boolean} [typing]
+ * @property {() => void} [drop] Called before it goes.
  * @param {Element} parent Its children are the components' nodes, and nothing else.
  * @param {Component<T>[]} old
  * @param {T[]} items
  * @param {() => Component<T>} create
+ * @param {boolean} [replaced] The data comes from elsewhere: none of it is that before, changed.
  * @returns {Component<T>[]} One per item; the components that are not needed get index -1.
  */
-export function reconcile(parent, old, items, create) {
+export function reconcile(parent, old, items, create, replaced = false) {
   const keys = items.map((item) => JSON.stringify(item));
   const free = new Set(old);
   const parts = new Array(items.length).fill(null);
@@ -115,12 +123,15 @@ export function reconcile(parent, old, items, create) {
     const moved = parts[i] ?? [...free].find((part) => part.key === key);
     if (moved) take(i, moved);
   });
+  const changed = !replaced && free.size === 1 && parts.filter((part) => !part).length === 1;
+  const fits = (part) => free.has(part) && (changed || !part.typing);
   keys.forEach((key, i) => {
     if (parts[i]) return;
-    const [left] = free.has(old[i]) ? [old[i]] : free;
+    const left = fits(old[i]) ? old[i] : [...free].find(fits);
     take(i, left ?? create());
   });
   for (const part of free) {
+    part.drop?.();
     part.index = -1;
     part.node.remove();
   }

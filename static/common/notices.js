@@ -1,4 +1,4 @@
-/** Messages above the table; errors stay until they are dismissed. */
+/** Messages above the table; errors stay until they are dismissed, or what they are about is over. */
 
 import { h, icon, iconButton } from "./dom.js";
 
@@ -25,8 +25,9 @@ export class Notices {
   /**
    * @param {"error" | "info"} level
    * @param {string} text May have several lines; all are shown.
+   * @param {string} [about] What it is about: see `forget`.
    */
-  show(level, text) {
+  show(level, text, about = "") {
     const dismiss = iconButton("remove", "Dismiss", () => notice.remove());
     dismiss.dataset.testid = "dismiss";
     const notice = h(
@@ -35,6 +36,7 @@ export class Notices {
         class: `notice ${level}`,
         role: level === "error" ? "alert" : "status",
         "data-testid": `notice-${level}`,
+        "data-about": about,
       },
       ...(level === "error" ? [icon("warning")] : []),
       h("span", { class: "notice-text" }, text),
@@ -45,6 +47,17 @@ export class Notices {
     }
     this.list.append(notice);
     if (level === "info") setTimeout(() => notice.remove(), INFO_STAYS);
+  }
+
+  /**
+   * What errors are about is over.
+   *
+   * @param {string} [about] By default what was asked for last: something else is asked for now.
+   */
+  forget(about = "") {
+    for (const notice of this.list.querySelectorAll(".error")) {
+      if (notice.dataset.about === about) notice.remove();
+    }
   }
 
   /**

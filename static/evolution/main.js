@@ -20,7 +20,9 @@ const notices = new Notices(element("notices"));
 const [PLAN, STEER] = [0, 1];
 let status = null;
 
+/** With what is asked for, errors about what was asked for before are of no interest. */
 function send(message) {
+  notices.forget();
   const sent = socket.send(message);
   if (!sent) notices.stress();
   return sent;

@@ -15,7 +15,9 @@ const IN_VIEW = 1000; // ms between two words that this page is in view
 const element = (id) => document.getElementById(id);
 const notices = new Notices(element("notices"));
 
+/** With what is asked for, errors about what was asked for before are of no interest. */
 function send(message) {
+  notices.forget();
   const sent = socket.send(message);
   if (!sent) notices.stress();
   return sent;

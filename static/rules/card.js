@@ -2,10 +2,11 @@
 
 import { focusAnswer, h, icon, iconButton, identify, reconcile } from "../common/dom.js";
 import { menuButton } from "../common/menu.js";
-import { ActionChip, BehaviourChip, PreconditionChip, actionChoices } from "./chips.js";
+import { ActionChip, BehaviourChip, PreconditionChip, actionChoices, precondition, says } from "./chips.js";
 import { makeDraggable } from "./drag.js";
 import { draftField, growing } from "./field.js";
 import { findingLine } from "./finding.js";
+import { fill, isTruth, plainTerm, written } from "./terms.js";
 
 const PARTS = [
   {
@@ -86,10 +87,11 @@ export class RuleCard {
 
   /**
    * @param {(rule: number) => ?object} make Makes the edit, given where this rule is by then.
+   * @param {() => void} [refused] Called if it was not made.
    * @returns {boolean} False if there is no connection.
    */
-  edit(make) {
-    return this.session.edit(() => (this.index < 0 ? null : make(this.index)));
+  edit(make, refused) {
+    return this.session.edit(() => (this.index < 0 ? null : make(this.index)), refused);
   }
 
   move(by) {
@@ -108,10 +110,11 @@ export class RuleCard {
     this.edit((rule) => ({ do: "remove_rule", rule }));
   }
 
-  /** Vocabulary entries of a part that this rule does not mention yet. */
+  /** Vocabulary entries of a part that this rule does not mention yet, or can mention again. */
   absent(part) {
-    const present = new Set(this.rule[part].map((element) => element.name ?? element));
-    return this.session.vocabulary[part].filter((entry) => !present.has(entry.name));
+    const present = new Set(this.rule[part].map((element) => (element.percept ?? element).name));
+    const again = ({ arguments: taken, values }) => taken.length > 0 || (values && !isTruth(values));
+    return this.session.vocabulary[part].filter((entry) => again(entry) || !present.has(entry.name));
   }
 
   /** @returns {import("./protocol.js").Finding[]} */
@@ -125,22 +128,26 @@ export class RuleCard {
   additions(part) {
     const { vocabulary } = this.session;
     if (part === "preconditions") {
-      return this.absent(part).flatMap(({ name, holds, fails }) =>
-        [true, false].map((value) => ({
-          id: `${name}-${value}`,
-          label: `${name} == ${value}`,
-          detail: value ? holds : fails,
-          choose: () => this.#add(part, { name, holds: value }),
-        })),
-      );
+      return this.absent(part).flatMap((entry) => {
+        const values = isTruth(entry.values) ? [true, false] : entry.values.slice(-1);
+        return values.map((value) => {
+          const element = precondition(entry, value);
+          return {
+            id: `${entry.name}-${value}`,
+            label: `${written(element.percept)} ${element.comparison} ${value}`,
+            detail: says(entry, element),
+            choose: () => this.#add(part, element),
+          };
+        });
+      });
     }
     if (part === "behaviours") {
-      return this.absent(part).map(({ name, doing, colour }) => ({
-        id: name,
-        label: name,
-        detail: doing,
-        colour,
-        choose: () => this.#add(part, name),
+      return this.absent(part).map((entry) => ({
+        id: entry.name,
+        label: entry.name,
+        detail: fill(entry.doing),
+        colour: entry.colour,
+        choose: () => this.#add(part, plainTerm(entry)),
       }));
     }
     return actionChoices(vocabulary, (element) => this.#add(part, { p: 1, ...element }));
@@ -173,6 +180,18 @@ export class RuleCard {
     this.tools.down.disabled = index === last;
     for (const [part, row] of Object.entries(this.rows)) row.update(rule[part]);
     this.#showFindings();
+  }
+
+  /** True while somebody types in this rule; a cursor alone is moved on by what this page asked for. */
+  get typing() {
+    const { chips } = this.rows.actions;
+    return this.draft.typing(!this.session.asking) || chips.some((chip) => chip.typing);
+  }
+
+  /** This rule is gone. */
+  drop() {
+    this.draft.giveUp(!this.session.asking);
+    for (const chip of this.rows.actions.chips) chip.drop();
   }
 
   /** @param {number} heat Times that the rule has just fired, per robot. */
@@ -240,7 +259,15 @@ export class RuleCard {
     const wrapper = growing(this.comment);
     this.draft = draftField(this.comment, {
       tidy: (text) => text.trim(),
-      commit: (comment) => this.edit((rule) => ({ do: "set_comment", rule, comment })),
+      commit: (comment, refused) => this.edit((rule) => ({ do: "set_comment", rule, comment }), refused),
+      keep: (text, cursor) =>
+        this.session.keep({
+          what: `The explanation of R${this.index + 1}`,
+          text,
+          cursor,
+          rule: this.rule,
+          edit: (comment, rule) => ({ do: "set_comment", rule, comment }),
+        }),
       changed: wrapper.fit,
     });
     this.english = h("p", { class: "english" });

@@ -2,7 +2,8 @@
 
 import { h, iconButton, identify } from "../common/dom.js";
 import { menuButton } from "../common/menu.js";
-import { probabilityField } from "./probability.js";
+import { parseProbability, probabilityField } from "./probability.js";
+import { Arguments, ValueButton, entryOf, fill, isTruth, named, plainTerm, written } from "./terms.js";
 
 /** What all chips have in common: a place in a rule, a remove button and findings. */
 class Chip {
@@ -22,13 +23,16 @@ class Chip {
     this.node.append(this.body, this.removeButton);
   }
 
-  /** @param {(element: any) => any} change Makes the new element from the present one. */
-  set(change) {
+  /**
+   * @param {(element: any) => any} change Makes the new element from the present one.
+   * @param {() => void} [refused] Called if it was not made.
+   */
+  set(change, refused) {
     return this.card.edit((rule) => {
       const element = change(this.item);
       const same = JSON.stringify(element) === JSON.stringify(this.item);
       return same ? null : this.#place(rule, "set", { element });
-    });
+    }, refused);
   }
 
   remove() {
@@ -73,96 +77,146 @@ export class PreconditionChip extends Chip {
   constructor(card) {
     super(card, "preconditions");
     this.name = menuButton({ class: "word" }, () => this.#names());
-    this.value = h("button", {
-      type: "button",
-      class: "truth",
-      onclick: () => this.set(({ name, holds }) => ({ name, holds: !holds })),
-    });
-    this.body.append(this.name, h("span", { class: "sign" }, "=="), this.value);
+    this.arguments = new Arguments((values) =>
+      this.set((element) => ({ ...element, percept: { ...element.percept, arguments: values } })),
+    );
+    this.sign = menuButton({ class: "sign" }, () =>
+      this.entry.comparisons.map((comparison) => ({
+        id: comparison,
+        label: comparison,
+        choose: () => this.set((element) => ({ ...element, comparison })),
+      })),
+    );
+    this.equals = h("span", { class: "sign" }, "==");
+    this.value = new ValueButton(
+      () => this.entry.values,
+      (value) => this.set((element) => ({ ...element, value })),
+    );
+    this.body.append(this.name, this.arguments.node, this.equals, this.sign, this.value.node);
   }
 
-  show({ name, holds }, where) {
+  show({ percept, comparison, value }, where) {
+    const { name } = percept;
+    const entry = entryOf(this.card.session.vocabulary.preconditions, name);
+    this.entry = entry ?? { arguments: [], comparisons: ["=="], values: [false, true] };
     this.name.textContent = name;
-    this.value.textContent = String(holds);
-    this.value.dataset.value = String(holds);
-    const entry = this.card.session.vocabulary.preconditions.find((known) => known.name === name);
-    this.value.title = entry ? (holds ? entry.holds : entry.fails) : "";
+    this.arguments.update(percept, entry, this.id);
+    const plain = typeof value === "boolean" && comparison === "==";
+    this.equals.hidden = !plain;
+    this.sign.hidden = plain;
+    this.sign.textContent = comparison;
+    const button = this.value.update(value, `${this.id}-value`, `${name} is ${value}`);
+    button.title = entry ? says(entry, { percept, comparison, value }) : "";
     identify(this.name, `${this.id}-name`, `Change ${where}, now ${name}`);
-    identify(this.value, `${this.id}-value`, `${name} is ${holds}: change to ${!holds}`);
+    identify(this.sign, `${this.id}-sign`, `Change how ${name} is compared, now ${comparison}`);
   }
 
   #names() {
-    return this.card
-      .absent("preconditions")
-      .map(({ name, holds }) => ({
-        id: name,
-        label: name,
-        detail: holds,
-        choose: () => this.set((element) => ({ name, holds: element.holds })),
-      }));
+    return this.card.absent("preconditions").map((entry) => ({
+      id: entry.name,
+      label: entry.name,
+      detail: fill(entry.holds),
+      choose: () => this.set((element) => ({ ...precondition(entry, element.value) })),
+    }));
   }
+}
+
+/** A precondition on an entry of the vocabulary; with the value, if it can be compared with it. */
+export function precondition(entry, value) {
+  const { values, comparisons } = entry;
+  const kept = values.includes(value) ? value : values.at(-1);
+  return { percept: plainTerm(entry), value: kept, comparison: comparisons[0] };
+}
+
+/** A precondition in words. */
+export function says(entry, { percept, comparison, value }) {
+  const denied = isTruth(entry.values) ? value !== (comparison === "==") : comparison === "!=";
+  return fill(denied && entry.fails ? entry.fails : entry.holds, { ...named(entry, percept), comparison, value });
 }
 
 export class BehaviourChip extends Chip {
   constructor(card) {
     super(card, "behaviours");
     this.name = menuButton({ class: "word" }, () => this.#names());
-    this.body.append(h("span", { class: "lamp", "aria-hidden": "true" }), this.name);
+    this.arguments = new Arguments((values) => this.set((term) => ({ ...term, arguments: values })));
+    this.body.append(h("span", { class: "lamp", "aria-hidden": "true" }), this.name, this.arguments.node);
     this.node.classList.add("lit");
   }
 
-  show(name, where) {
-    this.name.textContent = name;
-    this.paint(name);
-    identify(this.name, `${this.id}-name`, `Change ${where}, now ${name}`);
+  show(term, where) {
+    this.name.textContent = term.name;
+    this.arguments.update(term, entryOf(this.card.session.vocabulary.behaviours, term.name), this.id);
+    this.paint(term);
+    identify(this.name, `${this.id}-name`, `Change ${where}, now ${term.name}`);
   }
 
   #names() {
-    return this.card
-      .absent("behaviours")
-      .map(({ name, doing, colour }) => ({
-        id: name,
-        label: name,
-        detail: doing,
-        colour,
-        choose: () => this.set(() => name),
-      }));
+    return this.card.absent("behaviours").map((entry) => ({
+      id: entry.name,
+      label: entry.name,
+      detail: fill(entry.doing),
+      colour: entry.colour,
+      choose: () => this.set(() => plainTerm(entry)),
+    }));
   }
 }
 
 export class ActionChip extends Chip {
   constructor(card) {
     super(card, "actions");
-    this.p = probabilityField(card.session, (p) => this.set((action) => ({ ...action, p })));
+    const commit = (p, refused) => this.set((action) => ({ ...action, p }), refused);
+    this.p = probabilityField(card.session, commit, (text, cursor) => this.#keep(text, cursor));
     this.lamp = h("span", { class: "lamp", "aria-hidden": "true" });
     this.target = menuButton({ class: "word" }, () => this.#targets());
-    this.assigns = h("span", { class: "sign" }, "←");
-    this.value = h("button", {
-      type: "button",
-      class: "truth",
-      onclick: () => this.set((action) => ({ ...action, value: !action.value })),
-    });
+    this.arguments = new Arguments((values) =>
+      this.set((action) => ({ ...action, behaviour: { ...action.behaviour, arguments: values } })),
+    );
+    this.assigns = h("span", { class: "sign" });
+    this.value = new ValueButton(
+      () => entryOf(card.session.vocabulary.internal_states, this.item.state)?.values ?? [],
+      (value) => this.set((action) => ({ ...action, value })),
+    );
     const equals = h("span", { class: "sign" }, "=");
     const p = h("label", { class: "p" }, h("i", {}, "p"), equals, this.p.node);
     this.body.append(p, h("span", { class: "sign arrow" }, "→"), this.lamp, this.target);
-    this.body.append(this.assigns, this.value);
+    this.body.append(this.arguments.node, this.assigns, this.value.node);
   }
 
   show(action, where) {
-    const changesBehaviour = "behaviour" in action;
-    const name = changesBehaviour ? action.behaviour : action.state;
-    this.node.classList.toggle("lit", changesBehaviour);
-    this.paint(name);
+    const { behaviour, state, value, operation } = action;
+    const name = behaviour?.name ?? state;
+    this.node.classList.toggle("lit", Boolean(behaviour));
+    if (behaviour) this.paint(behaviour);
     this.target.textContent = name;
-    for (const node of [this.assigns, this.value]) node.hidden = changesBehaviour;
-    this.lamp.hidden = !changesBehaviour;
+    const entry = behaviour && entryOf(this.card.session.vocabulary.behaviours, name);
+    this.arguments.update(behaviour, entry, this.id);
+    for (const node of [this.assigns, this.value.node]) node.hidden = Boolean(behaviour);
+    this.lamp.hidden = !behaviour;
     this.p.update(action.p, `${this.id}-p`, `Probability of ${where}, ${name}`);
     identify(this.target, `${this.id}-target`, `Change ${where}, now ${name}`);
-    if (changesBehaviour) return;
-    this.value.textContent = String(action.value);
-    this.value.dataset.value = String(action.value);
-    const label = `${name} becomes ${action.value}: change to ${!action.value}`;
-    identify(this.value, `${this.id}-value`, label);
+    if (behaviour) return;
+    this.assigns.textContent = operation === "=" ? "←" : operation;
+    this.value.update(value, `${this.id}-value`, `${name} becomes ${value}`);
+  }
+
+  /** True while somebody types here; a cursor alone is moved on by what this page asked for. */
+  get typing() {
+    return this.p.typing(!this.card.session.asking);
+  }
+
+  /** This action is gone. */
+  drop() {
+    this.p.giveUp(!this.card.session.asking);
+  }
+
+  #keep(text, cursor) {
+    const { item, index: at, part, card } = this;
+    const edit = (typed, rule) => {
+      const p = parseProbability(typed);
+      return Number.isNaN(p) ? null : { do: "set", rule, part, at, element: { ...item, p } };
+    };
+    const what = `The probability of ${item.behaviour?.name ?? item.state} in R${card.index + 1}`;
+    card.session.keep({ what, text, cursor, rule: card.rule, edit });
   }
 
   #targets() {
@@ -179,21 +233,23 @@ export class ActionChip extends Chip {
  * @param {(element: object) => void} choose Called with the action but for its probability.
  */
 export function actionChoices(vocabulary, choose) {
-  const changes = vocabulary.behaviours.map(({ name, doing, colour }) => ({
-    id: name,
-    label: name,
-    detail: `start ${doing}`,
-    colour,
-    choose: () => choose({ behaviour: name }),
+  const changes = vocabulary.behaviours.map((entry) => ({
+    id: entry.name,
+    label: entry.name,
+    detail: `start ${fill(entry.doing)}`,
+    colour: entry.colour,
+    choose: () => choose({ behaviour: plainTerm(entry) }),
   }));
-  const assignments = vocabulary.internal_states.flatMap(({ name, on, off }) =>
-    [true, false].map((value) => ({
-      id: `${name}-${value}`,
-      label: `${name} ← ${value}`,
-      detail: value ? on : off,
-      choose: () => choose({ state: name, value }),
-    })),
-  );
+  const assignments = vocabulary.internal_states.flatMap(({ name, on, off, values, counts }) => {
+    const set = counts ? values.slice(0, 1) : [...values].reverse();
+    const steps = counts ? ["+=", "-="].map((operation) => ({ operation, value: 1 })) : [];
+    return [...steps, ...set.map((value) => ({ operation: "=", value }))].map(({ operation, value }) => ({
+      id: `${name}-${operation === "=" ? value : operation}`,
+      label: `${name} ${operation === "=" ? "←" : operation} ${value}`,
+      detail: operation === "=" ? fill(value === false ? off : on, { value }) : "",
+      choose: () => choose({ state: name, value, operation }),
+    }));
+  });
   if (assignments.length) assignments[0].divided = true;
   return [...changes, ...assignments];
 }

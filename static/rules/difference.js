@@ -1,5 +1,7 @@
 /** What has changed between two versions of a rule set: which rule became which, and how. */
 
+import { written } from "./terms.js";
+
 /**
  * @typedef {object} RuleChange
  * @property {?import("./protocol.js").Rule} before Null if the rule is new.
@@ -20,16 +22,15 @@ const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 /** @returns {string[]} The words of a precondition, behaviour or action. */
 export function wordsOf(element) {
-  if (typeof element === "string") return [element];
-  if ("p" in element) {
-    const effect = "behaviour" in element ? [element.behaviour] : [element.state, "←", `${element.value}`];
-    return ["p =", `${element.p}`, "→", ...effect];
-  }
-  return [element.name, "==", `${element.holds}`];
+  if ("percept" in element) return [written(element.percept), element.comparison, `${element.value}`];
+  if (!("p" in element)) return [written(element)];
+  const { p, behaviour, state, operation, value } = element;
+  const effect = behaviour ? [written(behaviour)] : [state, operation === "=" ? "←" : operation, `${value}`];
+  return ["p =", `${p}`, "→", ...effect];
 }
 
-const subjectOf = (element) =>
-  typeof element === "string" ? null : (element.name ?? element.behaviour ?? element.state);
+/** What an element speaks of; null for a behaviour, which is all that there is to it. */
+const subjectOf = ({ percept, behaviour, state }) => percept?.name ?? behaviour?.name ?? state ?? null;
 
 /** How much two rules have in common, 0 to 1: their elements, and a little their comments. */
 function alike(a, b) {

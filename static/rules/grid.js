@@ -45,10 +45,16 @@ export class Grid {
     root.addEventListener("keydown", (event) => this.#leftField(event));
   }
 
-  /** Put the focus beside the cell that it was in, if that cell has gone. */
-  restore() {
+  /**
+   * Put the focus beside the cell that it was in, if that cell has gone.
+   *
+   * @param {boolean} asked This page asked for it; nobody else's change takes the focus elsewhere.
+   */
+  restore(asked) {
     const place = this.#place;
-    if (!place || document.activeElement !== document.body) return;
+    const lost = document.activeElement === document.body;
+    if (!asked && !this.root.contains(document.activeElement)) this.#place = null;
+    if (!asked || !place || !lost) return;
     const rows = this.#rows();
     const row = rows[Math.min(this.#rowIndex(place, rows), rows.length - 1)];
     if (row) this.#focus(row[Math.min(place.column, row.length - 1)]);

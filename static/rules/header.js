@@ -46,6 +46,7 @@ export class Header {
 
   /** @param {import("./protocol.js").RulesMessage} message */
   update({ rule_set: { name, origin }, can_undo, can_redo }) {
+    if (this.session.replaced) this.draft.giveUp(false);
     this.draft.update(name);
     const words = describeOrigin(origin, this.session.vocabulary);
     this.origin.textContent = words;
@@ -68,7 +69,15 @@ export class Header {
     const wrapper = growing(input);
     this.draft = draftField(input, {
       tidy: (text) => text.replace(/\s+/g, " ").trim(),
-      commit: (name) => this.session.edit(() => ({ do: "set_name", name })),
+      commit: (name, refused) => this.session.edit(() => ({ do: "set_name", name }), refused),
+      keep: (text, cursor) =>
+        this.session.keep({
+          what: "The name of the rules",
+          text,
+          cursor,
+          rule: null,
+          edit: (name) => ({ do: "set_name", name }),
+        }),
       changed: wrapper.fit,
     });
     return wrapper.node;

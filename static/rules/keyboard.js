@@ -7,15 +7,16 @@ import { isEditing, isText } from "./grid.js";
  * @param {import("./table.js").RuleTable} table
  * @param {import("./grid.js").Grid} grid
  * @param {import("./help.js").Help} help
+ * @param {import("./text.js").TextTab} text
  */
-export function listenToKeys(session, table, grid, help) {
+export function listenToKeys(session, table, grid, help, text) {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.target.closest?.("dialog")) return;
     const act =
       wholePage(event, session) ??
       withinRule(event, table) ??
       elsewhere(event, grid, help) ??
-      arena(event, session);
+      (text.root.hidden ? arena(event, session) : null);
     if (!act) return;
     event.preventDefault();
     act();
@@ -47,9 +48,13 @@ function withinRule(event, table) {
   return event.target.closest(".part") ? null : () => card.remove();
 }
 
-/** The keys that play the arena, as in ARGoS: the page has the focus, the arena should not miss them. */
+/**
+ * The keys that play the arena, as in ARGoS: the page has the focus, the arena should not miss them.
+ * Whoever types means text, also while the cursor is in none: keys then play nothing.
+ */
 function arena(event, session) {
-  if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return null;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return null;
+  if (event.target.closest?.("input, textarea, select, [popover]")) return null;
   const key = event.key.toUpperCase();
   return "POXFR".includes(key) && key.length === 1 ? () => session.command({ type: "key", key }) : null;
 }

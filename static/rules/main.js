@@ -6,10 +6,11 @@ import { Socket, socketAddress } from "../common/socket.js";
 import { Tabs } from "../common/tabs.js";
 import { ChangesTab } from "./changes.js";
 import { listenToClipboard } from "./clipboard.js";
-import { tellDrafts } from "./field.js";
-import { Grid } from "./grid.js";
+import { forgetRefusal, tellDrafts } from "./field.js";
+import { Grid, isEditing } from "./grid.js";
 import { Header, download } from "./header.js";
 import { Help } from "./help.js";
+import { KeptTexts } from "./kept.js";
 import { listenToKeys } from "./keyboard.js";
 import { Live } from "./live.js";
 import { People } from "./people.js";
@@ -22,12 +23,21 @@ import { UnsavedRules } from "./unsaved.js";
 import { Verdict } from "./verdict.js";
 import { Worth } from "./worth.js";
 
+/** What a refusal of the last of these is told for: with the next it is of no interest. */
+const CHANGES = new Set([
+  "edit", "undo", "redo", "set_text", "take_simplified", "load_preset", "load_text", "bring_back", "discard", "simplify",
+]);
+const UNANSWERED = "The connection was lost before the last change was confirmed: look whether it was made.";
+
 const element = (id) => document.getElementById(id);
 const notices = new Notices(element("notices"));
 const session = new Session(
-  (message) => socket.send(message),
-  () => socket.open,
+  (message) => {
+    if (CHANGES.has(message.type)) notices.forget();
+    return socket.send(message);
+  },
   () => notices.stress(),
+  (typed) => kept.add(typed, away),
 );
 const live = new Live();
 const verdict = new Verdict();
@@ -35,6 +45,7 @@ const table = new RuleTable(element("table"), session);
 const grid = new Grid(element("table"), table);
 const worth = new Worth(session, table);
 const people = new People(session);
+const kept = new KeptTexts(element("notices"), session);
 const unsaved = new UnsavedRules(element("notices"), session);
 const states = new StatesTab(element("states"), session, table, () => tabs.show(0));
 const simplify = new Simplify(session);
@@ -56,7 +67,8 @@ const tabs = new Tabs(
   ],
 );
 const header = new Header(element("header"), session, notices, people.button, help.button, live.node, verdict.node, tabs.node, worth.legend);
-let resend = false;
+let away = false; // the connection was lost, and what has become of the rules is not known yet
+let unanswered = false; // and what was asked for before has not been answered
 
 const handlers = {
   vocabulary(message) {
@@ -64,21 +76,24 @@ const handlers = {
     live.name(message);
   },
   rules(received) {
+    const { asking, state: before } = session;
     session.receive(received);
     const message = session.state;
+    notices.connected(true);
+    if (before?.version !== message.version) forgetRefusal();
     document.body.classList.remove("waiting");
     header.update(message);
     live.rulesChanged(message.rule_set.rules);
     verdict.rulesChanged(message);
     table.update(message);
     worth.rulesChanged(message);
-    grid.restore();
+    grid.restore(asking);
     simplify.rulesChanged(message);
     text.update(message);
     changes.update(message);
+    kept.rulesChanged();
     session.settled();
-    if (resend) tellDrafts("resend");
-    resend = false;
+    if (away) comeBack();
   },
   live: (message) => live.update(message, table.cards),
   states: (message) => states.update(message),
@@ -93,33 +108,46 @@ const handlers = {
   unsaved: ({ left }) => unsaved.update(left),
   stale({ version, text: words }) {
     notices.show("error", words);
-    text.tooLate(version);
+    session.refused(version);
   },
-  notice({ level, text: words }) {
-    notices.show(level, words);
-    if (level !== "error") return;
-    text.refused();
+  notice({ level, text: words, about }) {
+    if (words) notices.show(level, words, about);
+    else notices.forget(about);
+    if (level !== "error" || !session.asking) return;
+    session.refused();
     session.settled();
   },
 };
 
 const socket = new Socket(socketAddress(), {
-  opened() {
-    notices.connected(true);
-    people.introduce();
-  },
+  opened: () => people.introduce(),
   closed() {
     notices.connected(false);
-    session.disconnected();
+    unanswered ||= session.disconnected();
     tellDrafts("connectionlost");
-    resend = true;
+    away = true;
   },
   message: (message) => handlers[message.type]?.(message),
 });
 
+/** What was typed meanwhile was typed for the rules as they were: it is offered, and not applied. */
+function comeBack() {
+  const active = document.activeElement;
+  tellDrafts("giveup", !session.replaced && isEditing(active) ? active : null);
+  text.comeBack();
+  notices.forget("journal");
+  if (session.replaced) notices.forget();
+  if (unanswered) notices.show("error", UNANSWERED);
+  away = unanswered = false;
+}
+
 tabs.remember("geswarm-tab");
-listenToKeys(session, table, grid, help);
+listenToKeys(session, table, grid, help, text);
 listenToClipboard(session, table, notices);
+addEventListener("reverted", () => notices.forget());
+addEventListener("beforeunload", (event) => {
+  if (kept.any || text.unkept || document.querySelector("[data-draft]:not(.source)")) event.preventDefault();
+});
 
 /** A switch that shows every rule as a sentence as well. */
 function wordsSwitch() {

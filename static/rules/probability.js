@@ -34,9 +34,10 @@ const round = (x) => Number(x.toPrecision(x < 100 ? 2 : 3)).toLocaleString("en")
 
 /**
  * @param {import("./session.js").Session} session
- * @param {(p: number) => boolean} commit
+ * @param {(p: number, refused: () => void) => boolean} commit
+ * @param {import("./field.js").Keep} keep
  */
-export function probabilityField(session, commit) {
+export function probabilityField(session, commit, keep) {
   const input = h("input", {
     class: "p-input",
     type: "text",
@@ -48,7 +49,9 @@ export function probabilityField(session, commit) {
   const draft = draftField(input, {
     tidy,
     problem,
-    commit: (text) => !choices.pressed && commit(Number(text)),
+    keep,
+    left: () => !choices.pressed,
+    commit: (text, refused) => commit(Number(text), refused),
     changed: () => {
       input.style.setProperty("width", `calc(${Math.max(1, input.value.length)}ch + 11px)`);
       if (choices.control === control) choices.show();
@@ -78,6 +81,11 @@ export function probabilityField(session, commit) {
     focus() {
       input.focus();
       input.select();
+    },
+    typing: draft.typing,
+    giveUp(touched) {
+      draft.giveUp(touched);
+      if (choices.control === control) choices.close();
     },
   };
 }

@@ -1,18 +1,21 @@
 /**
  * The messages between the page and Python, as types. Indices count from 0, finding.rule from 1.
  *
- * @typedef {{name: string, holds: boolean}} Precondition
- * @typedef {{p: number, behaviour: string}} BehaviourChange
- * @typedef {{p: number, state: string, value: boolean}} StateChange
+ * @typedef {boolean | number | string} Value
+ * @typedef {{name: string, arguments: Value[]}} Term
+ * @typedef {"==" | "!=" | ">=" | "<=" | ">" | "<"} Comparison
+ * @typedef {{percept: Term, comparison: Comparison, value: Value}} Precondition
+ * @typedef {{p: number, behaviour: Term}} BehaviourChange
+ * @typedef {{p: number, state: string, operation: "=" | "+=" | "-=", value: Value}} StateChange
  * @typedef {BehaviourChange | StateChange} Action
  * @typedef {"preconditions" | "behaviours" | "actions"} Part
- * @typedef {Precondition | string | Action} RuleElement
+ * @typedef {Precondition | Term | Action} RuleElement
  *
  * @typedef {object} Rule
  * @property {string} comment
  * @property {boolean} enabled
  * @property {Precondition[]} preconditions
- * @property {string[]} behaviours
+ * @property {Term[]} behaviours
  * @property {Action[]} actions
  *
  * @typedef {object} Origin
@@ -40,10 +43,13 @@
  * @property {number} [simpler] Elements that can go without changing the behaviour; absent while
  *   unknown.
  *
- * @typedef {object} Vocabulary
- * @property {{name: string, holds: string, fails: string}[]} preconditions
- * @property {{name: string, doing: string, colour: string}[]} behaviours
- * @property {{name: string, on: string, off: string}[]} internal_states
+ * @typedef {{name: string, unit: string, offered: Value[]}} Argument
+ *
+ * @typedef {object} Vocabulary Words may hold arguments in braces.
+ * @property {{name: string, holds: string, fails: string, arguments: Argument[], values: Value[],
+ *   comparisons: Comparison[]}[]} preconditions
+ * @property {{name: string, doing: string, colour: string, arguments: Argument[]}[]} behaviours
+ * @property {{name: string, on: string, off: string, values: Value[], counts: boolean}[]} internal_states
  * @property {number[]} probabilities
  * @property {{name: string, title: string}[]} presets
  *
@@ -143,7 +149,11 @@
  * @property {number} edited Seconds since 1970.
  * @typedef {{type: "unsaved", left: Unsaved[]}} UnsavedMessage
  *
- * @typedef {{type: "notice", level: "error" | "info", text: string}} NoticeMessage
+ * @typedef {object} NoticeMessage
+ * @property {"notice"} type
+ * @property {"error" | "info"} level
+ * @property {string} text Empty: what it is about is over.
+ * @property {string} [about] "journal", or absent: what was asked for last.
  *
  * @typedef {object} Edit
  * @property {string} do add_rule, remove_rule, duplicate_rule, move_rule, set_enabled, set_comment,

@@ -33,7 +33,8 @@ export class RuleTable {
   update({ rule_set: { rules }, findings }) {
     const before = new Map(this.cards.map((card) => [card, card.node.offsetTop]));
     keepingFocus(() => {
-      this.cards = reconcile(this.list, this.cards, rules, () => new RuleCard(this.session));
+      const { session } = this;
+      this.cards = reconcile(this.list, this.cards, rules, () => new RuleCard(session), session.replaced);
       const general = findings.filter((finding) => !finding.rule);
       this.general.replaceChildren(
         ...general.map(({ message, severity }) => findingLine(severity, message)),

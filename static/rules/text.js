@@ -1,8 +1,10 @@
 /** The rules as text in the rule language, checked while it is typed. */
 
 import { h, identify } from "../common/dom.js";
+import { tabStore } from "../common/store.js";
 import { findingLine } from "./finding.js";
 
+const KEPT = "geswarm-text"; // what is not applied, and the rules that it was typed for
 const PAUSE = 250; // ms without a key before the text is checked
 const TOKEN = /(#.*)|("(?:[^"\\]|\\.)*")|([\w.+-]+)|([^\w"#.+-]+)|(.)/g;
 const KEYWORDS = new Set(["name", "origin", "rule", "off", "if", "and", "while", "or", "do"]);
@@ -48,8 +50,9 @@ class Backdrop {
 
 export class TextTab {
   #stored = "";
+  #base = ""; // the rules for which the text is typed
   #sent = null;
-  #applied = {};
+  #known = false;
   #timer = null;
   #findings = [];
 
@@ -77,9 +80,10 @@ export class TextTab {
   /** @param {import("./protocol.js").RulesMessage} message */
   update({ text }) {
     if (text === undefined) return;
+    if (!this.#known) this.#recall();
+    this.#known = true;
     const typed = this.area.value;
     const untouched = typed === this.#stored || typed === this.#sent;
-    if (text !== this.#stored) this.meanwhile.hidden = untouched || typed === text;
     this.#stored = text;
     if (untouched) this.#sent = null;
     if (untouched && typed !== text) this.#write(text);
@@ -94,21 +98,14 @@ export class TextTab {
     this.#refresh();
   }
 
-  /** The server could not do something: what was sent is a draft again. */
-  refused() {
-    this.#sent = null;
+  /** There is a connection again: what was typed without one has not been checked. */
+  comeBack() {
+    if (this.area.value !== this.#stored) this.#check();
   }
 
-  /**
-   * Somebody else changed the rules before the text that was applied got there: it is a draft again.
-   *
-   * @param {number} version The one that it was meant for.
-   */
-  tooLate(version) {
-    if (version !== this.#applied.version) return;
-    this.area.value = this.#applied.text;
-    this.meanwhile.hidden = false;
-    this.#refresh();
+  /** True if there is text that would be lost with this page. */
+  get unkept() {
+    return this.area.value !== this.#stored && !tabStore.lasts(KEPT);
   }
 
   /** The tab comes into view. */
@@ -124,7 +121,7 @@ export class TextTab {
       return node;
     };
     this.state = h("span", { class: "text-state", role: "status", "data-testid": "text-state" });
-    this.revert = button("revert-text", "Revert", "Back to the rules as they are", () => this.#write(this.#stored));
+    this.revert = button("revert-text", "Revert", "Back to the rules as they are", () => this.#revert());
     this.apply = button("apply-text", "Apply", "Ctrl+Enter", () => this.#apply());
     this.apply.classList.add("first");
     this.meanwhile = h("div", { class: "notice offline", role: "status", hidden: true });
@@ -134,19 +131,29 @@ export class TextTab {
     return [this.state, this.revert, this.apply];
   }
 
+  /** Text that was typed before this page was loaded again is a draft again. */
+  #recall() {
+    const kept = JSON.parse(tabStore.get(KEPT) ?? "null");
+    if (!kept) return;
+    this.area.value = kept.text;
+    this.#stored = this.#base = kept.rules;
+    this.#check();
+  }
+
+  #revert() {
+    this.#write(this.#stored);
+    this.area.focus({ preventScroll: true });
+    this.area.dispatchEvent(new Event("reverted", { bubbles: true }));
+  }
+
   #write(text) {
     this.area.value = text;
-    this.meanwhile.hidden = true;
     this.#clear();
   }
 
   #typed() {
     clearTimeout(this.#timer);
-    if (this.area.value === this.#stored) {
-      this.meanwhile.hidden = true;
-      this.#clear();
-      return;
-    }
+    if (this.area.value === this.#stored) return this.#clear();
     this.#timer = setTimeout(() => this.#check(), PAUSE);
     this.#refresh();
   }
@@ -158,11 +165,13 @@ export class TextTab {
   }
 
   #check() {
-    if (this.session.connected()) this.session.command({ type: "check_text", text: this.area.value });
+    if (this.session.connected) this.session.command({ type: "check_text", text: this.area.value });
   }
 
   #refresh() {
     const draft = this.area.value !== this.#stored;
+    if (!draft) this.#base = this.#stored;
+    this.meanwhile.hidden = this.#base === this.#stored;
     const errors = this.#findings.filter((finding) => finding.severity === "error").length;
     if (!this.root.hidden) this.backdrop.write(this.area.value);
     this.area.toggleAttribute("data-draft", draft);
@@ -173,13 +182,21 @@ export class TextTab {
     this.state.textContent = errors ? problems : draft ? "not applied yet" : "";
     this.state.classList.toggle("error", errors > 0);
     this.drafting(draft);
+    tabStore.set(KEPT, draft ? JSON.stringify({ text: this.area.value, rules: this.#base }) : null);
   }
 
   #apply() {
     if (this.apply.disabled) return;
-    const text = this.area.value;
-    this.#applied = { version: this.session.state.version, text };
-    if (this.session.command({ type: "set_text", text })) this.#sent = text;
+    const [text, base] = [this.area.value, this.#base];
+    if (this.session.command({ type: "set_text", text }, () => this.#putBack(text, base))) this.#sent = text;
+    this.area.focus({ preventScroll: true });
+  }
+
+  /** The text that was applied was not taken: it is a draft again, unless something else is typed by now. */
+  #putBack(text, base) {
+    this.#sent = null;
+    if (this.area.value === this.#stored) [this.area.value, this.#base] = [text, base];
+    this.#refresh();
   }
 
   #finding({ line, element, message, severity }) {

@@ -36,6 +36,22 @@ def page_fixture(browser, server):
     assert complaints == []
 
 
+def term(name, *arguments):
+    return {"name": name, "arguments": list(arguments)}
+
+
+def precondition(name, value):
+    return {"percept": term(name), "value": value, "comparison": "=="}
+
+
+def changes(p, behaviour):
+    return {"p": p, "behaviour": term(behaviour)}
+
+
+def sets(p, state, value):
+    return {"p": p, "state": state, "value": value, "operation": "="}
+
+
 def choose(page, opener, choice):
     page.get_by_test_id(opener).click()
     page.get_by_test_id(f"choice-{choice}").click()

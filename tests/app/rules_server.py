@@ -17,7 +17,6 @@ from geswarm.app.state.document import RuleDocument
 from geswarm.app.state.states import DrawnMachine
 from geswarm.exports import brief_svg
 from geswarm.rules import (
-    FORAGING,
     EditError,
     RuleSet,
     RuleSetError,
@@ -40,7 +39,6 @@ TYPES = {
     ".css": "text/css",
     ".svg": "image/svg+xml",
 }
-COLOURS = ("#faa60a", "#1f63de", "#22b278")
 
 
 class RulesServer:
@@ -48,15 +46,17 @@ class RulesServer:
 
     Attributes:
         answering: While False, messages are recorded but neither applied nor answered.
+        greeting: While False, pages that come are told nothing.
         simpler: What the page is told could be simplified away; taking it removes the last rule.
     """
 
-    def __init__(self, port=0):
+    def __init__(self, port=0, greeting=True):
         self.document = RuleDocument(load_preset("evo8"))
         self.loaded = self.document.rule_set
         self.simpler = 0
         self.received = []
         self.answering = True
+        self.greeting = greeting
         self.port = port
         self._loop = asyncio.new_event_loop()
         self._clients = set()
@@ -80,6 +80,11 @@ class RulesServer:
     @property
     def address(self):
         return f"http://127.0.0.1:{self.port}/rules/rules.html"
+
+    @property
+    def pages(self):
+        """How many are connected."""
+        return len(self._clients)
 
     @property
     def edits(self):
@@ -201,8 +206,9 @@ class RulesServer:
 
     async def _talk(self, connection):
         self._clients.add(connection)
-        await connection.send(json.dumps(vocabulary()))
-        await connection.send(json.dumps(self.rules()))
+        if self.greeting:
+            await connection.send(json.dumps(vocabulary()))
+            await connection.send(json.dumps(self.rules()))
         try:
             async for text in connection:
                 message = json.loads(text)
@@ -297,20 +303,7 @@ def text_findings(text):
 
 def vocabulary():
     return {
-        "type": "vocabulary",
-        "preconditions": [
-            {"name": entry.name, "holds": entry.holds, "fails": entry.fails}
-            for entry in FORAGING.preconditions
-        ],
-        "behaviours": [
-            {"name": entry.name, "doing": entry.doing, "colour": colour}
-            for entry, colour in zip(FORAGING.behaviours, COLOURS, strict=True)
-        ],
-        "internal_states": [
-            {"name": entry.name, "on": entry.on, "off": entry.off}
-            for entry in FORAGING.internal_states
-        ],
-        "probabilities": list(FORAGING.probabilities),
+        **rule_messages.vocabulary_message(),
         "presets": [
             {"name": "evo8", "title": "EVO 8"},
             {"name": "hand-coded", "title": "Hand-coded"},

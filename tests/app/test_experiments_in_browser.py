@@ -106,6 +106,15 @@ def test_rule_sets_are_compared_and_saved(page, tmp_path):
     expect(page.get_by_test_id("runs")).to_have_value("4")
 
 
+def test_a_file_that_is_not_utf_8_is_refused(page):
+    with page.expect_file_chooser() as chooser:
+        page.get_by_test_id("open-file").click()
+    data = 'name "Förder" rule do p = 0.1, PHOTOTAXIS'.encode("latin-1")
+    chooser.value.set_files({"name": "latin1.rules", "mimeType": "text/plain", "buffer": data})
+    expect(page.get_by_test_id("notice-error")).to_have_text("latin1.rules: not UTF-8 at byte 7.")
+    expect(page.get_by_label("file latin1.rules")).to_have_count(0)
+
+
 def test_a_campaign_is_opened_and_its_report_read_in_a_new_tab(page, tmp_path):
     finished_campaign(tmp_path / "runs" / "whole & old")
     page.get_by_test_id("tab-campaigns").click()

@@ -138,6 +138,21 @@ def test_saved_files_can_be_loaded_again(page):
     assert page.session.document.rule_set == EVO8
 
 
+def test_whether_unsaved_rules_are_kept_is_told_also_to_who_comes_later(page):
+    journal = page.session.journal
+    journal.problem = "the disk is full"
+    page.sync(0.0)
+    page.arrive()
+    told = [message["text"] for message in page.channel.of("notice")]
+    assert len(told) == 2
+    assert all(text.endswith("lost: the disk is full") for text in told)
+    journal.problem = ""
+    page.sync(0.0)
+    page.arrive()
+    assert [message["text"] for message in page.channel.of("notice")][2:] == [""]
+    assert {message["about"] for message in page.channel.of("notice")} == {"journal"}
+
+
 def test_keys_of_the_arena_work_over_the_table_too(page):
     page.say(type="key", key="P")
     assert page.session.playback.playing

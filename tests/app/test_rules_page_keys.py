@@ -5,7 +5,7 @@ import time
 import pytest
 
 from geswarm.rules import load_preset
-from tests.app.rules_browser import expect, page_fixture, sees_edit, server_fixture
+from tests.app.rules_browser import changes, expect, page_fixture, sees_edit, server_fixture
 from tests.app.rules_server import rule_text
 
 __all__ = ["page_fixture", "server_fixture"]
@@ -59,7 +59,7 @@ def test_a_cell_is_edited_with_enter_and_left_with_enter_or_escape(page, server)
     expect(field).to_have_value("0.1")
     expect(page.get_by_test_id("p-choices")).to_be_hidden()
     press(page, "Enter", "ArrowUp", "Enter")
-    element = {"p": 1, "behaviour": "ANTI-PHOTOTAXIS"}
+    element = changes(1, "ANTI-PHOTOTAXIS")
     edit = {"do": "set", "rule": 2, "part": "actions", "at": 0, "element": element}
     sees_edit(page, server, edit)
     expect(field).to_be_focused()
@@ -75,7 +75,7 @@ def test_typing_into_a_cell_replaces_a_probability_and_extends_a_comment(page, s
     press(page, "ArrowLeft")
     page.keyboard.type("0.3")
     press(page, "Enter")
-    element = {"p": 0.3, "behaviour": "RANDOM_WALK"}
+    element = changes(0.3, "RANDOM_WALK")
     edit = {"do": "set", "rule": 0, "part": "actions", "at": 0, "element": element}
     sees_edit(page, server, edit)
     press(page, "ArrowUp", "ArrowUp", "ArrowUp")
@@ -118,7 +118,7 @@ def test_delete_removes_the_element_and_at_the_heading_the_rule(page, server):
 def test_the_arrow_keys_still_belong_to_a_menu_and_to_what_is_typed(page, server):
     page.get_by_test_id("rule-1-add-action").focus()
     press(page, "Enter", "ArrowDown", "Enter")
-    element = {"p": 1, "behaviour": "ANTI-PHOTOTAXIS"}
+    element = changes(1, "ANTI-PHOTOTAXIS")
     edit = {"do": "add", "rule": 0, "part": "actions", "at": 1, "element": element}
     sees_edit(page, server, edit)
     focused(page, "rule-1-action-2-p")
@@ -132,7 +132,7 @@ def test_a_late_answer_does_not_take_the_focus_from_where_the_user_has_gone(page
     server.answering = False
     page.get_by_test_id("rule-1-add-action").click()
     page.keyboard.press("Enter")
-    element = {"p": 1, "behaviour": "PHOTOTAXIS"}
+    element = changes(1, "PHOTOTAXIS")
     edit = {"do": "add", "rule": 0, "part": "actions", "at": 1, "element": element}
     sees_edit(page, server, edit)
     page.get_by_test_id("rule-2-comment").click()

@@ -4,8 +4,14 @@ import pytest
 
 from geswarm.exports import EXPORTS
 from geswarm.rules import Rule, RuleSet, load_preset, parse_yaml
-from tests.app.rules_browser import choose, expect, page_fixture, sees_edit, server_fixture
-from tests.app.rules_server import RulesServer
+from tests.app.rules_browser import (
+    choose,
+    expect,
+    page_fixture,
+    precondition,
+    sees_edit,
+    server_fixture,
+)
 
 __all__ = ["page_fixture", "server_fixture"]
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -53,6 +59,46 @@ def test_a_file_that_is_too_long_is_refused_on_the_spot(page, server):
     assert server.received == []
 
 
+def load(page, name, data):
+    page.get_by_test_id("load").click()
+    with page.expect_file_chooser() as chooser:
+        page.get_by_test_id("choice-file").click()
+    chooser.value.set_files({"name": name, "mimeType": "text/plain", "buffer": data})
+
+
+NAMED = 'name "Förder"\nrule do p = 0.1, PHOTOTAXIS\n'
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (NAMED.encode("latin-1"), "not UTF-8 at byte 7."),
+        (b"\xef\xbb\xbf" + NAMED.encode("latin-1"), "not UTF-8 at byte 10."),
+        (b"# \xef\xbf\xbd \xe2\x82", "not UTF-8 at byte 6."),
+        (NAMED.encode("utf-16"), "UTF-16, expected UTF-8."),
+        (NAMED.encode("utf-16-be"), "UTF-16, expected UTF-8."),
+    ],
+)
+def test_a_file_that_is_not_utf_8_is_refused(page, server, data, reason):
+    load(page, "notepad.rules", data)
+    expect(page.get_by_test_id("notice-error")).to_have_text(f"notepad.rules: {reason}")
+    assert server.received == []
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+def test_a_file_of_any_editor_is_loaded(page, server, mark, line_end):
+    load(page, "notepad.rules", (mark + NAMED.replace("\n", line_end)).encode())
+    expect(page.get_by_test_id("name")).to_have_value("Förder")
+    expect(page.get_by_test_id("rule-2")).to_have_count(0)
+
+
+def test_a_misspelt_key_is_refused(page, server):
+    load(page, "mine.json", b'{"rules": [{"precondition": [], "actions": []}]}')
+    expect(page.get_by_test_id("notice-error")).to_contain_text("did you mean preconditions?")
+    expect(page.get_by_test_id("name")).to_have_value("EVO 8")
+
+
 def test_saving_downloads_the_rules(page, server):
     with page.expect_download() as event:
         page.get_by_test_id("save").click()
@@ -76,37 +122,6 @@ def test_typing_is_not_lost_when_messages_arrive(page, server):
     expect(typed).to_have_value("half a seten")
     typed.press("Enter")
     sees_edit(page, server, {"do": "set_comment", "rule": 0, "comment": "half a seten"})
-
-
-def test_typing_survives_a_lost_connection_and_is_sent_afterwards(page, server):
-    field = page.get_by_test_id("rule-1-action-1-p")
-    comment = page.get_by_test_id("rule-2-comment")
-    field.fill("0.7")
-    server.stop()
-    expect(page.get_by_test_id("offline")).to_be_visible()
-    comment.fill("typed in the dark")
-    comment.press("Enter")
-    page.get_by_test_id("rule-1-delete").click()
-    with RulesServer(server.port) as again:
-        expect(page.get_by_test_id("offline")).to_be_hidden(timeout=15_000)
-        sees_edit(page, again, {"do": "set_comment", "rule": 1, "comment": "typed in the dark"})
-        assert again.document.rule_set.rules[0].actions[0].p == 0.7
-        assert len(again.document.rule_set.rules) == 4
-        page.close()
-
-
-def test_an_edit_whose_answer_was_lost_is_sent_again(page, server):
-    server.answering = False
-    comment = page.get_by_test_id("rule-2-comment")
-    comment.fill("sent but not answered")
-    comment.press("Enter")
-    edit = {"do": "set_comment", "rule": 1, "comment": "sent but not answered"}
-    sees_edit(page, server, edit)
-    server.stop()
-    with RulesServer(server.port) as again:
-        sees_edit(page, again, edit)
-        expect(comment).to_have_value("sent but not answered")
-        page.close()
 
 
 def test_markup_is_shown_as_text(page, server):
@@ -133,7 +148,7 @@ def test_where_evolved_rules_come_from_is_shown(page, server):
 
 
 def test_findings_are_shown_at_their_element(page, server):
-    element = {"name": "ON_NEST", "holds": False}
+    element = precondition("ON_NEST", False)
     edit = {"do": "add", "rule": 1, "part": "preconditions", "at": 1, "element": element}
     server.change(edit)
     expect(page.get_by_test_id("rule-2")).to_contain_text("contradicts precondition 1")

@@ -106,6 +106,28 @@ def test_new_rules_are_drawn_and_what_was_looked_at_stays(states, server):
     expect(states.get_by_test_id("machine-details")).to_contain_text("Nothing leads away.")
 
 
+def test_the_labels_stay_at_the_arrows_when_a_probability_is_changed(states, server):
+    def places():
+        states.get_by_test_id("tab-states").click()
+        boxes = states.locator(".machine :is(.state .body, .paper)").all()
+        return [[box.get_attribute(name) for name in ("x", "y", "width")] for box in boxes]
+
+    def change(testid, p):
+        states.get_by_test_id("tab-table").click()
+        states.get_by_test_id(testid).dblclick()
+        states.keyboard.type(p)
+        states.keyboard.press("Enter")
+        expect(states.get_by_test_id(testid)).not_to_have_attribute("data-draft", "")
+        server.states()
+
+    before = places()
+    change("rule-1-action-1-p", "0.123")
+    expect(states.get_by_test_id("transition-4")).to_contain_text("p = 0.123")
+    assert places() == before
+    change("rule-2-action-1-p", "0.05")
+    expect(states.locator(".transition")).to_have_count(14)
+
+
 def test_many_transitions_are_told_at_their_arrows(states, server):
     server.show(CROWDED)
     server.states()

@@ -3,7 +3,16 @@
 import pytest
 
 from geswarm.rules import RuleSet, format_text, load_preset, parse_text
-from tests.app.rules_browser import expect, page_fixture, sees_edit, server_fixture, tells
+from tests.app.rules_browser import (
+    changes,
+    expect,
+    page_fixture,
+    precondition,
+    sees_edit,
+    server_fixture,
+    tells,
+)
+from tests.app.rules_server import RulesServer
 
 __all__ = ["page_fixture", "server_fixture"]
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -106,12 +115,148 @@ def test_line_numbers_stand_beside_their_lines(page, server):
     assert editor == 0  # the text area is as high as its mirror
 
 
+def place_of(page, line, column):
+    """Where a character is seen, whose places are those of what can be clicked."""
+    return page.evaluate(
+        """([line, column]) => {
+            const shown = document.querySelectorAll(".lines li")[line - 1];
+            const texts = document.createTreeWalker(shown, NodeFilter.SHOW_TEXT);
+            let text = texts.nextNode();
+            for (; column >= text.length; text = texts.nextNode()) column -= text.length;
+            const range = new Range();
+            range.setStart(text, column);
+            range.setEnd(text, column + 1);
+            const { left, top, width, height } = range.getBoundingClientRect();
+            return [left + 0.1 * width, top + height / 2];
+        }""",
+        [line, column],
+    )
+
+
+def selected(page):
+    return page.evaluate("getSelection().toString()")
+
+
+@pytest.mark.parametrize("zoom", [1, 1.5])
+def test_the_mouse_works_everywhere_in_the_text(page, server, zoom):
+    """On lines below one that is wrapped, marked, and beyond what is in view."""
+    page.evaluate("zoom => document.documentElement.style.setProperty('zoom', zoom)", zoom)
+    source = open_text(page)
+    long = "# " + "a long line that must be wrapped " * 8
+    lines = [long, "rule", "  if ON_NESTT == true", "  do p = 1, PHOTOTAXIS", *["# more"] * 60]
+    source.click()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text("\n".join(lines))
+    expect(page.locator(".lines li.error")).to_have_count(1)
+
+    page.mouse.wheel(0, 10_000)
+    expect(page.locator(".lines li").nth(63)).to_be_in_viewport()
+    page.mouse.click(*place_of(page, 60, 4))
+    page.keyboard.type("!")
+    assert source.input_value().split("\n")[59] == "# mo!re"
+    expect(page.locator(".lines li").nth(59)).to_contain_text("!")
+    page.mouse.wheel(0, -10_000)
+    expect(page.locator(".lines li").first).to_be_in_viewport()
+    page.mouse.dblclick(*place_of(page, 4, 14))
+    assert selected(page).strip() == "PHOTOTAXIS"
+    page.mouse.dblclick(*place_of(page, 3, 6))
+    page.keyboard.type("ON_NEST")
+    expect(page.locator(".lines li.error")).to_have_count(0)
+    page.mouse.move(*place_of(page, 2, 0))
+    page.mouse.down()
+    page.mouse.move(*place_of(page, 4, 5), steps=5)
+    page.mouse.up()
+    assert selected(page) == "rule\n  if ON_NEST == true\n  do "
+    expect(source).to_be_focused()
+    assert {message["type"] for message in server.received} == {"check_text"}
+
+
+def test_below_the_last_line_the_cursor_goes_to_the_end(page, server):
+    source = open_text(page)
+    source.click()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text("rule")
+    box = source.bounding_box()
+    page.get_by_test_id("tab-text").focus()
+    page.mouse.click(box["x"] + 200, box["y"] + box["height"] - 20)
+    page.keyboard.type(" off")
+    expect(source).to_have_value("rule off")
+
+
+def test_a_text_that_is_not_applied_is_there_again_after_a_reload(page, server):
+    open_text(page).click()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("# not yet appplied")
+    text = page.get_by_test_id("source").input_value()
+    page.reload()
+    source = page.get_by_test_id("source")
+    expect(source).to_have_value(text)
+    expect(page.get_by_test_id("changed-meanwhile")).to_be_hidden()
+    expect(page.get_by_test_id("apply-text")).to_be_enabled()
+    server.change({"do": "remove_rule", "rule": 0})
+    page.reload()
+    expect(source).to_have_value(text)
+    expect(page.get_by_test_id("changed-meanwhile")).to_be_visible()
+    page.get_by_test_id("revert-text").click()
+    page.reload()
+    expect(page.get_by_test_id("tab-text")).to_have_text("Text")
+    expect(source).to_have_value(format_text(server.document.rule_set))
+    assert server.document.version == 2
+
+
+def test_where_nothing_can_be_kept_the_browser_asks_before_text_is_lost(browser, server):
+    page = browser.new_context().new_page()
+    page.add_init_script(
+        """const set = Storage.prototype.setItem;
+        Storage.prototype.setItem = function (name, text) {
+            if (text.length > 100) throw new DOMException("full", "QuotaExceededError");
+            set.call(this, name, text);
+        };"""
+    )
+    page.goto(server.address)
+    open_text(page).click()
+    page.keyboard.type("# lost?")
+    asked = []
+    page.on("dialog", lambda dialog: (asked.append(dialog.type), dialog.accept()))
+    page.reload()
+    assert asked == ["beforeunload"]
+    page.context.close()
+
+
+def test_errors_in_the_text_go_with_it(page, server):
+    source = open_text(page)
+    source.click()
+    page.keyboard.type("what? ")
+    expect(page.get_by_test_id("text-findings")).to_contain_text("what")
+    page.get_by_test_id("revert-text").click()
+    expect(page.get_by_test_id("text-findings").locator("li")).to_have_count(0)
+    expect(page.locator(".lines .error")).to_have_count(0)
+    expect(source).to_be_focused()
+
+
+def test_a_text_mended_while_the_connection_was_lost_is_checked_again(page, server):
+    source = open_text(page)
+    source.click()
+    page.keyboard.press("Control+Home")
+    page.keyboard.type("# ?\nwhat")
+    expect(page.get_by_test_id("text-findings")).to_contain_text("what")
+    server.stop()
+    expect(page.get_by_test_id("offline")).to_be_visible()
+    page.keyboard.press("Shift+Home")
+    page.keyboard.press("Delete")
+    with RulesServer(server.port) as again:
+        expect(page.get_by_test_id("text-findings").locator("li")).to_have_count(0, timeout=20_000)
+        expect(page.get_by_test_id("apply-text")).to_be_enabled()
+        assert again.document.version == 1
+        page.close()
+
+
 def test_changes_from_the_loaded_version_are_shown_and_taken_back(page, server):
     server.change({"do": "move_rule", "rule": 3, "to": 0})
     server.change({"do": "remove_rule", "rule": 1})
-    element = {"p": 0.2, "behaviour": "ANTI-PHOTOTAXIS"}
+    element = changes(0.2, "ANTI-PHOTOTAXIS")
     server.change({"do": "set", "rule": 2, "part": "actions", "at": 0, "element": element})
-    added = {"name": "HAS_OBJECT", "holds": False}
+    added = precondition("HAS_OBJECT", False)
     edit = {"do": "add", "rule": 1, "part": "preconditions", "at": 1, "element": added}
     server.change(edit)
     server.change({"do": "add_rule", "at": 3, "rule": {"comment": "<i>new</i>"}})

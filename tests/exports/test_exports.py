@@ -72,7 +72,7 @@ def test_forty_messy_rules_come_back_from_json():
 def test_json_files_are_saved_and_read_like_the_others(tmp_path):
     path = tmp_path / "mine.json"
     save_rule_set(EVO8, path)
-    assert json.loads(path.read_text())["schema"] == 1
+    assert json.loads(path.read_text())["schema"] == 2
     assert read_rule_set(path.read_text(), str(path)) == EVO8
 
 
@@ -87,18 +87,18 @@ def test_json_files_are_saved_and_read_like_the_others(tmp_path):
         ("[]", [": expected a rule set, got []"]),
         ("{}", [': expected "rules" with a list of rules']),
         (
-            '{"schema": 2, "rules": 5}',
-            [": expected schema 1, got 2", ": rules: expected a list, got 5"],
+            '{"schema": 3, "rules": 5}',
+            [": expected schema 2, got 3", ": rules: expected a list, got 5"],
         ),
         (
             '{"rules": [3, {"comment": 1}]}',
-            [": rule 1: expected a rule, got 3", ": rule 2: comment: got 1"],
+            [": rule 1: expected a rule, got 3", ": rule 2: comment: expected text, got 1"],
         ),
         (
             '{"rules": [{"actions": [{"p": "a", "behaviour": "X"}, 4], "behaviours": [1]}]}',
             [
-                ": rule 1, behaviour 1: expected the name of a behaviour, got 1",
-                ": rule 1, action 1: p: got 'a'",
+                ": rule 1, behaviour 1: expected a behaviour, got 1",
+                ": rule 1, action 1: p: expected a number, got 'a'",
                 ": rule 1, action 2: expected an action, got 4",
             ],
         ),
@@ -113,7 +113,20 @@ def test_json_files_are_saved_and_read_like_the_others(tmp_path):
             '{"rules": [], "origin": {"fitness": NaN}}',
             [": fitness: expected a finite number, got nan"],
         ),
-        ('{"rules": [], "origin": 3}', [": origin: expected an object, got 3"]),
+        ('{"rules": [], "rules": []}', [": rules is given twice"]),
+        (
+            '{"rules": [{"precondition": []}]}',
+            [": rule 1: unknown key 'precondition'; did you mean preconditions?"],
+        ),
+        (
+            '{"rules": [{"actions": [{"p": 1, "behavior": "PHOTOTAXIS"}]}]}',
+            [": rule 1, action 1: unknown key 'behavior'; did you mean behaviour?"],
+        ),
+        (
+            '{"rules": [{"behaviours": [{"name": "PHOTOTAXIS", "name": "X"}]}]}',
+            [": rule 1, behaviour 1: name is given twice"],
+        ),
+        ('{"rules": [], "origin": 3}', [": expected an origin, got 3"]),
     ],
 )
 def test_wrong_json_is_explained(text, messages):
@@ -127,7 +140,11 @@ def test_json_holds_the_state_machine():
     assert [rule_from_json(rule) for rule in document["rules"]] == list(HAND_CODED.rules)
     machine = document["state_machine"]
     assert machine["step_seconds"] == 0.1
-    assert machine["states"][2] == {"behaviour": "RANDOM_WALK", "internal": {}, "initial": True}
+    assert machine["states"][2] == {
+        "behaviour": {"name": "RANDOM_WALK", "arguments": []},
+        "internal": {},
+        "initial": True,
+    }
     assert machine["transitions"][2] == {
         "source": 0,
         "target": 2,
@@ -135,7 +152,7 @@ def test_json_holds_the_state_machine():
         "when": "ON_NEST and HAS_OBJECT",
         "probability": 1.0,
         "mean_wait": 0.1,
-        "effects": ["DROP_OBJECT"],
+        "effects": {"DROP_OBJECT": True},
         "restarts": False,
         "rules": [3, 4],
     }

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -152,6 +153,29 @@ def test_the_brief_picture_leaves_text_out_where_there_is_too_much():
     brief = brief_svg(StateMachine.of(EVO8))
     assert ">p = 0.0959 · R3 R4<" in brief
     assert ">not WANT_OBJECT<" in brief_svg(StateMachine.of(CROWDED))
+
+
+@pytest.mark.parametrize("preset", ["evo8", "hand-coded", "evolved"])
+def test_another_probability_takes_no_text_off_the_brief_picture(preset):
+    rule_set = load_preset(preset)
+    for at, rule in enumerate(rule_set.rules):
+        for where, action in enumerate(rule.actions):
+            actions, rules = list(rule.actions), list(rule_set.rules)
+            actions[where] = replace(action, p=0.1)
+            rules[at] = replace(rule, actions=tuple(actions))
+            layout = lay_out(StateMachine.of(RuleSet(tuple(rules))), BRIEF)
+            assert all(arrow.lines for arrow in layout.arrows)
+
+
+def test_nothing_moves_in_the_brief_picture_for_the_digits_of_a_probability():
+    rules = EVO8.rules
+    layouts = []
+    for p in (0.05, 0.0512, 0.3):
+        action = replace(rules[0].actions[0], p=p)
+        changed = RuleSet((replace(rules[0], actions=(action,)), *rules[1:]))
+        layouts.append(lay_out(StateMachine.of(changed), BRIEF))
+    places = [[*layout.states, *(arrow.label for arrow in layout.arrows)] for layout in layouts]
+    assert places[0] == places[1] == places[2]
 
 
 def test_text_in_the_picture_is_escaped():

@@ -1,13 +1,15 @@
 import json
 import random
+from dataclasses import replace
 
 import pytest
 
-from geswarm.evolution.grammar import geswarm_grammar
+from geswarm.evolution import rule_grammar
 from geswarm.ge.engine import CallOrderError, CheckpointError, Engine, FitnessError
 from geswarm.ge.evolve import Stopped, evolve
 from geswarm.ge.grammar import Grammar
 from geswarm.ge.settings import Settings, SettingsError
+from geswarm.rules import FORAGING
 
 SMALL = Settings(population=20, generations=12)
 
@@ -200,10 +202,10 @@ def test_codons_out_of_range_are_refused(grammar):
         Engine.restore(grammar, SMALL, 0, state)
 
 
-def test_a_state_of_another_grammar_is_refused(grammar, vocabulary):
+def test_a_state_of_another_grammar_is_refused(grammar):
     engine = Engine(grammar, SMALL)
     evolve(engine, count_true, stop=lambda: engine.generation == 2)
-    other = geswarm_grammar({**vocabulary, "value": ["0.5"], "B_name": ["STAND_STILL"]})
+    other = rule_grammar(replace(FORAGING, probabilities=(0.5,)))
     with pytest.raises(CheckpointError, match="grammar and vocabulary of the run"):
         Engine.restore(other, SMALL, 0, engine.state())
 

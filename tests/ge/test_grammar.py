@@ -1,6 +1,5 @@
 import pytest
 
-from geswarm.evolution.grammar import geswarm_grammar
 from geswarm.ge.grammar import Grammar, GrammarError, NonTerminal
 
 
@@ -120,34 +119,3 @@ def test_load_reports_the_file(tmp_path):
     with pytest.raises(GrammarError) as caught:
         Grammar.load(path)
     assert str(caught.value).startswith(f"{path}:1: <b> is not defined")
-
-
-def test_geswarm_choice_points_are_the_papers(vocabulary):
-    grammar = geswarm_grammar(vocabulary)
-    assert grammar.warnings == ()
-    assert {name: grammar.choices(name) for name in grammar.rules} == {
-        "S": 1,
-        "Rs": 2,
-        "R": 1,
-        "Ps": 2,
-        "more-Ps": 2,
-        "Bs": 2,
-        "more-Bs": 2,
-        "As": 2,
-        "P": 2,
-        "B": 1,
-        "A": 2,
-        "A_B": 1,
-        "A_IS": 1,
-        "new_value": 2,
-        "P_name": 3,
-        "B_name": 3,
-        "IS_name": 2,
-        "value": 8,
-    }
-
-
-def test_geswarm_needs_its_vocabulary(vocabulary):
-    with pytest.raises(GrammarError) as caught:
-        geswarm_grammar({name: vocabulary[name] for name in ("P_name", "B_name")})
-    assert len(caught.value.findings) == 2

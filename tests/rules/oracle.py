@@ -22,8 +22,8 @@ def _rules(rules, percepts, now, probability, found):
         found[now] += probability
         return
     rule, later = rules[0], rules[1:]
-    holds = all(percepts[entry.name] == entry.holds for entry in rule.preconditions)
-    executing = not rule.behaviours or now[0] in rule.behaviours
+    holds = all(percepts[str(entry.percept)] == entry.value for entry in rule.preconditions)
+    executing = not rule.behaviours or now[0] in map(str, rule.behaviours)
     actions = rule.actions if holds and executing else ()
     _actions(actions, later, percepts, now, probability, found)
 
@@ -43,10 +43,11 @@ def _actions(actions, later, percepts, now, probability, found):
 def _done(action, now):
     behaviour, states, restarted = now
     if isinstance(action, BehaviourChange):
-        if action.behaviour != behaviour:
+        target = str(action.behaviour)
+        if target != behaviour:
             restarts = {entry.name: entry.restarts for entry in FORAGING.behaviours}
-            restarted = restarts[action.behaviour]
-        return action.behaviour, states, restarted
+            restarted = restarts[target]
+        return target, states, restarted
     others = states - {action.state}
     return behaviour, others | {action.state} if action.value else others, restarted
 

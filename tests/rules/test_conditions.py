@@ -37,11 +37,12 @@ def shortest(holds, free):
 def test_conditions_are_right_and_shortest(kinds):
     holds = {point for point in POINTS if kinds[point] == "holds"}
     free = {point for point in POINTS if kinds[point] == "free"}
-    condition = minimise(sorted(holds), free, NAMES)
+    fails = set(POINTS) - holds - free
+    condition = minimise(sorted(holds), fails, NAMES)
     assert holds <= points_where(condition) <= holds | free
     length = (len(condition.terms), sum(map(len, condition.terms)))
     assert length == shortest(holds, free)
-    assert condition == minimise(sorted(holds, reverse=True), free, NAMES)
+    assert condition == minimise(sorted(holds, reverse=True), fails, NAMES)
 
 
 @pytest.mark.parametrize(
@@ -56,4 +57,19 @@ def test_conditions_are_right_and_shortest(kinds):
     ],
 )
 def test_conditions_in_words(holds, free, expected):
-    assert str(minimise(holds, free, NAMES)) == expected
+    fails = set(POINTS) - {*holds, *free}
+    assert str(minimise(holds, fails, NAMES)) == expected
+
+
+def test_thresholds_are_denied_as_people_write_it():
+    names = ("NEIGHBOURS >= 3", "COLOUR == red")
+    assert str(minimise([0], [1, 2, 3], names)) == "NEIGHBOURS < 3 and COLOUR != red"
+
+
+@given(st.sets(st.integers(0, 2**12 - 1), max_size=60), st.sets(st.integers(0, 2**12 - 1)))
+def test_conditions_over_many_names_are_right(holds, fails):
+    names = tuple(f"N{bit}" for bit in range(12))
+    condition = minimise(holds, fails - holds, names)
+    for point in holds | fails:
+        values = {name: bool(point >> bit & 1) for bit, name in enumerate(names)}
+        assert condition.holds(values) == (point in holds)

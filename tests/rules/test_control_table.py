@@ -8,44 +8,44 @@ from geswarm.rules import (
     FORAGING,
     BehaviourChange,
     ControlTable,
-    Indexing,
     Rule,
     RuleSet,
     RuleSetError,
+    Space,
     StateChange,
     load_preset,
 )
 from tests.rules.oracle import outcomes
 from tests.strategies import any_probabilities, plain_rule_sets
 
-INDEXING = Indexing.of(FORAGING)
+SPACE = Space.of(FORAGING)
 
 
 def situations():
     for bits, behaviour, state in itertools.product(
-        range(INDEXING.percepts), FORAGING.behaviour_index, range(INDEXING.states)
+        range(SPACE.percepts), FORAGING.behaviour_index, range(SPACE.states)
     ):
         percepts = {
             name: bool(bits >> bit & 1) for name, bit in FORAGING.precondition_index.items()
         }
         states = {name for name, bit in FORAGING.state_index.items() if state >> bit & 1}
-        row = INDEXING.situation(bits, FORAGING.behaviour_index[behaviour], state)
+        row = SPACE.situation(bits, FORAGING.behaviour_index[behaviour], state)
         yield row, percepts, behaviour, states
 
 
 def expected_row(rule_set, percepts, behaviour, states):
-    row = np.zeros(INDEXING.outcomes)
+    row = np.zeros(SPACE.outcomes)
     for (after, true_states, restarted), p in outcomes(
         rule_set, percepts, behaviour, states
     ).items():
         bits = sum(1 << FORAGING.state_index[name] for name in true_states)
-        row[INDEXING.outcome(FORAGING.behaviour_index[after], bits, restarted)] = float(p)
+        row[SPACE.outcome(FORAGING.behaviour_index[after], bits, restarted)] = float(p)
     return row
 
 
 def assert_equals_oracle(rule_set):
     table = ControlTable.compile(rule_set)
-    assert table.probabilities.shape == (INDEXING.situations, INDEXING.outcomes)
+    assert table.probabilities.shape == (SPACE.situations, SPACE.outcomes)
     for row, percepts, behaviour, states in situations():
         expected = expected_row(rule_set, percepts, behaviour, states)
         np.testing.assert_allclose(table.probabilities[row], expected, atol=1e-14)
@@ -65,8 +65,8 @@ def test_any_rule_set_equals_the_oracle(rule_set):
 def test_hand_coded_robot_in_the_nest_drops_its_object():
     table = ControlTable.compile(load_preset("hand-coded"))
     in_nest_with_object = 0b101
-    row = INDEXING.situation(in_nest_with_object, FORAGING.behaviour_index["ANTI-PHOTOTAXIS"], 0b01)
-    walking_and_dropping = INDEXING.outcome(
+    row = SPACE.situation(in_nest_with_object, FORAGING.behaviour_index["ANTI-PHOTOTAXIS"], 0b01)
+    walking_and_dropping = SPACE.outcome(
         FORAGING.behaviour_index["RANDOM_WALK"], 0b11, restart=True
     )
     assert table.probabilities[row, walking_and_dropping] == 1.0

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.rules import EditError, RuleSet, apply_edit, format_text, load_preset, parse_text
+from geswarm.rules import EditError, RuleSet, Term, apply_edit, format_text, load_preset, parse_text
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.edits import EDITS
 
@@ -26,12 +26,12 @@ def test_elements_are_added_and_removed():
     added = edited(
         do="add", rule=0, part="preconditions", at=0, element={"name": "ON_SOURCE", "holds": False}
     )
-    assert added.rules[0].preconditions[0].name == "ON_SOURCE"
+    assert added.rules[0].preconditions[0].percept == Term("ON_SOURCE")
     undone = apply_edit(added, {"do": "remove", "rule": 0, "part": "preconditions", "at": 0})
     assert undone == EVO8
     assert edited(do="add", rule=0, part="behaviours", at=1, element="RANDOM_WALK").rules[
         0
-    ].behaviours == ("PHOTOTAXIS", "RANDOM_WALK")
+    ].behaviours == (Term("PHOTOTAXIS"), Term("RANDOM_WALK"))
 
 
 def test_rules_are_added_removed_moved_duplicated_and_switched_off():
@@ -70,7 +70,7 @@ def test_rules_are_added_removed_moved_duplicated_and_switched_off():
         ),
         (
             {"do": "set", "rule": 0, "part": "behaviours", "at": 0, "element": 7},
-            "expected the name of a behaviour",
+            "expected a behaviour",
         ),
     ],
 )

@@ -4,21 +4,21 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from geswarm.rules import FORAGING, ControlTable, Indexing, load_preset
+from geswarm.rules import FORAGING, ControlTable, Space, load_preset
 from geswarm.rules.reachability import Trace, effective_outcomes, reachable_situations
 from geswarm.sim import World, load_scenario
 from tests.rules.oracle import effects as oracle_effects
 from tests.rules.oracle import reachable
 from tests.strategies import plain_rule_sets
 
-INDEXING = Indexing.of(FORAGING)
-SHAPE = (INDEXING.percepts, INDEXING.behaviours * INDEXING.states, INDEXING.outcomes)
+SPACE = Space.of(FORAGING)
+SHAPE = (SPACE.percepts, SPACE.starts, SPACE.outcomes)
 SENSED = tuple(FORAGING.precondition_index)
 STATES = tuple(FORAGING.state_index)
 
 
 def marked(rule_set):
-    return reachable_situations(ControlTable.compile(rule_set).probabilities.reshape(SHAPE))
+    return reachable_situations(ControlTable.compile(rule_set).by_percepts, SPACE)
 
 
 def expected(rule_set):
@@ -26,7 +26,7 @@ def expected(rule_set):
     for percepts, behaviour, states in reachable(rule_set):
         bits = sum(percepts[name] << bit for bit, name in enumerate(SENSED))
         inner = sum((name in states) << bit for bit, name in enumerate(STATES))
-        found[bits, FORAGING.behaviour_index[behaviour] * INDEXING.states + inner] = True
+        found[bits, FORAGING.behaviour_index[behaviour] * SPACE.states + inner] = True
     return found
 
 
@@ -45,9 +45,7 @@ def test_any_rule_set_reaches_what_the_oracle_finds(rule_set):
 @given(plain_rule_sets())
 def test_a_trace_ends_with_the_effects_of_the_control_table(rule_set):
     trace = Trace.of(rule_set)
-    table = ControlTable.compile(rule_set).probabilities.reshape(SHAPE) @ effective_outcomes(
-        FORAGING
-    )
+    table = ControlTable.compile(rule_set).by_percepts @ effective_outcomes(SPACE)
     for at in range(len(trace.rules) + 1):
         whole = trace.before[at] @ trace.after[at]
         np.testing.assert_allclose(whole, table * trace.reachable[:, :, None], atol=1e-14)
@@ -60,14 +58,14 @@ def test_a_trace_ends_with_the_effects_that_the_oracle_finds(rule_set):
     for percepts, behaviour, states in reachable(rule_set):
         bits = sum(percepts[name] << bit for bit, name in enumerate(SENSED))
         inner = sum((name in states) << bit for bit, name in enumerate(STATES))
-        column = FORAGING.behaviour_index[behaviour] * INDEXING.states + inner
-        wanted = np.zeros(INDEXING.outcomes)
+        column = FORAGING.behaviour_index[behaviour] * SPACE.states + inner
+        wanted = np.zeros(SPACE.outcomes)
         for (after, true_states, restarted), p in oracle_effects(
             rule_set, percepts, behaviour, states
         ).items():
             states_after = sum((name in true_states) << bit for bit, name in enumerate(STATES))
             code = FORAGING.behaviour_index[after]
-            wanted[INDEXING.outcome(code, states_after, restarted)] += float(p)
+            wanted[SPACE.outcome(code, states_after, restarted)] += float(p)
         np.testing.assert_allclose(decided[bits, column], wanted, atol=1e-12)
 
 
@@ -80,7 +78,7 @@ def test_simulated_robots_only_get_into_reachable_situations(rule_set):
     for _ in range(200):
         world.step()
         after = world.state
-        starts = before.behaviour.astype(int) * INDEXING.states + before.internal_states
+        starts = before.behaviour.astype(int) * SPACE.states + before.internal_states
         assert allowed[after.percepts, starts].all()
         before = after
 

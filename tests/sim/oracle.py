@@ -6,7 +6,7 @@ Only `draw` and `make_key` are shared in meaning with the kernels; they are writ
 import math
 from dataclasses import dataclass, field
 
-from geswarm.rules import FORAGING, BehaviourChange, Indexing
+from geswarm.rules import FORAGING, BehaviourChange, Space
 
 RADIUS, WHEEL_BASE, CONTROL_STEP = 0.085, 0.14, 0.1
 WORD = 0xFFFFFFFF
@@ -216,9 +216,10 @@ def by_rules(rule_set, rule_counts=None, action_counts=None):
         number = 0
         for r, rule in enumerate(rule_set.rules):
             active = rule.enabled and all(
-                robot.percepts[p.name] == p.holds for p in rule.preconditions
+                robot.percepts[str(p.percept)] == p.value for p in rule.preconditions
             )
-            active = active and (not rule.behaviours or robot.behaviour in rule.behaviours)
+            executed = list(map(str, rule.behaviours))
+            active = active and (not executed or robot.behaviour in executed)
             fired = False
             for a, action in enumerate(rule.actions):
                 if active and draw(robot.key, now, FIRST_ACTION + number) < action.p:
@@ -226,9 +227,10 @@ def by_rules(rule_set, rule_counts=None, action_counts=None):
                     if action_counts is not None:
                         action_counts[r][a] += 1
                     if isinstance(action, BehaviourChange):
-                        if action.behaviour != robot.behaviour:
-                            restart = action.behaviour == "RANDOM_WALK"
-                        robot.behaviour = action.behaviour
+                        target = str(action.behaviour)
+                        if target != robot.behaviour:
+                            restart = target == "RANDOM_WALK"
+                        robot.behaviour = target
                     else:
                         robot.states[action.state] = action.value
                 number += 1
@@ -243,7 +245,7 @@ def by_rules(rule_set, rule_counts=None, action_counts=None):
 
 def by_table(words, slot_bits):
     """Decide by one draw from the slots of a control table, which knows about missed zones."""
-    indexing = Indexing.of(FORAGING)
+    space = Space.of(FORAGING)
     names = [entry.name for entry in FORAGING.behaviours]
     state_names = [entry.name for entry in FORAGING.internal_states]
 
@@ -254,7 +256,7 @@ def by_table(words, slot_bits):
         word = int(words[16 * zones + memory, slot])
         first, other = word // 32 % 32, word % 32
         chosen = first if rest * 2**slot_bits // 2**10 < word // 2**10 else other
-        behaviour, states, restart = indexing.describe_outcome(chosen)
+        behaviour, states, restart = space.describe_outcome(chosen)
         robot.behaviour = names[behaviour]
         robot.states = {name: bool(states >> bit & 1) for bit, name in enumerate(state_names)}
         return restart

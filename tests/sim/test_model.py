@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numba import njit
 
-from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, load_preset
+from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, Space, load_preset
 from geswarm.sim import batch, footbot
 from geswarm.sim.encoding import encode_tables
 from geswarm.sim.kernels import motion, state
@@ -167,7 +167,9 @@ def test_codes_and_bits_are_those_of_the_vocabulary():
     assert [entry.name for entry in FORAGING.behaviours if entry.restarts] == ["RANDOM_WALK"]
     assert 1 << FORAGING.state_index["WANT_OBJECT"] == state.WANT_OBJECT
     assert 1 << FORAGING.state_index["DROP_OBJECT"] == state.DROP_OBJECT
-    assert FORAGING.initial_states == FORAGING.lasting_states == state.WANT_OBJECT
+    space = Space.of(FORAGING)
+    initially = state.WANT_OBJECT
+    assert space.initial_states == space.kept[state.DROP_OBJECT | initially] == initially
     assert len(FORAGING.behaviours) == state.BEHAVIOURS
     assert 1 << len(FORAGING.internal_states) == state.STATES
 
@@ -199,7 +201,7 @@ def test_series_are_the_functions():
 
 def test_a_contradictory_rule_never_fires():
     precondition = load_preset("evo8").rules[1].preconditions[0]
-    never = type(precondition)(precondition.name, not precondition.holds)
+    never = type(precondition)(precondition.percept, not precondition.value)
     rule = Rule((precondition, never), (), load_preset("evo8").rules[1].actions)
     world = World(CROWDED, RuleSet((rule,)), 1)
     world.step(200)

@@ -25,8 +25,10 @@ from geswarm.analysis.reproduction.results import Results, best_of, format_sampl
 from geswarm.analysis.reproduction.studies import EVO_8, HAND_CODED, evolved_name
 from geswarm.evolution import EvolutionRun
 from geswarm.ge import GenerationRecord
+from geswarm.plain_text import NotTextError, decode, read_file
 from geswarm.rules import RuleSet, load_preset
 from geswarm.rules.library import write_whole
+from geswarm.rules.limits import MAX_CHARACTERS
 from geswarm.sim import EvaluationStopped
 
 
@@ -62,10 +64,10 @@ class Campaign:
         path = directory / "campaign.yaml"
         try:
             if path.exists():
-                plan = Plan.from_yaml(path.read_text(encoding="utf-8"))
+                plan = Plan.from_yaml(read_file(path, MAX_CHARACTERS))
             else:
                 plan = Plan(**asked)
-        except (PlanError, UnicodeDecodeError, OSError) as error:
+        except (PlanError, NotTextError, OSError) as error:
             where = f"{path}: " if path.exists() else ""
             raise CampaignError(f"{where}{_reason(error)}") from error
         if differences := plan.differences(asked):
@@ -181,8 +183,7 @@ class Campaign:
         path = self.data_of(name)
         if self._is_done(name):
             try:
-                text = path.read_text(encoding="utf-8")
-                return parse_samples(text, cases, self.plan.evaluations)
+                return parse_samples(decode(path.read_bytes()), cases, self.plan.evaluations)
             except (OSError, ValueError, OverflowError) as error:
                 raise CampaignError(
                     f"{path}: not the {name} runs of this campaign; delete it to have them anew"
