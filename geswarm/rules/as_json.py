@@ -201,7 +201,7 @@ def precondition_from_json(value: Json) -> Precondition:
     Raises:
         JsonError: The value has another shape.
     """
-    if isinstance(value, dict) and "percept" not in value and "holds" in value:
+    if isinstance(value, dict) and "percept" not in value and "name" in value:
         _require_keys(value, "a precondition", ("name", "holds"))
         return Precondition(Term(_field(value, "name", str)), _field(value, "holds", bool))
     _require_keys(value, "a precondition", ("percept", "comparison", "value"))
@@ -276,7 +276,8 @@ def _value(value: dict[str, Json], key: str) -> Value:
     found: Value | None = value.get(key)
     if isinstance(found, bool | str) or (isinstance(found, int | float) and is_finite(found)):
         return found
-    raise JsonError(f"{key}: expected a truth, a number or a name, got {shown(found)}")
+    given = shown(found) if key in value else "nothing"
+    raise JsonError(f"{key}: expected a truth, a number or a name, got {given}")
 
 
 def _field(

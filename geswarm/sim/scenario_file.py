@@ -168,7 +168,7 @@ class _Reader:
             try:
                 own[key] = _Given(value_of(value_node), place)
             except YamlError as error:
-                self.wrong(place, str(error))
+                self.wrong(Place(source, error.line, element=place.element), str(error))
         return own
 
 

@@ -167,6 +167,12 @@ def test_config_round_trips_and_foreign_ones_are_refused(tmp_path):
     for text in ("", "[]", "seed: 1", "a: [", CONFIG.to_yaml().replace("robots: 4", "robots: -4")):
         with pytest.raises(RunConfigError, match="not the configuration of a run"):
             RunConfig.from_yaml(text)
+    for twice in (
+        CONFIG.to_yaml() + "seed: 1\n",
+        CONFIG.to_yaml().replace("{", "{crossover: 1, ", 1),
+    ):
+        with pytest.raises(RunConfigError, match=r"'(seed|crossover)' is given twice"):
+            RunConfig.from_yaml(twice)
     with pytest.raises(StoreError, match=r"no run\.db"):
         EvolutionRun.resume(tmp_path)
 

@@ -113,20 +113,36 @@ def test_json_files_are_saved_and_read_like_the_others(tmp_path):
             '{"rules": [], "origin": {"fitness": NaN}}',
             [": fitness: expected a finite number, got nan"],
         ),
-        ('{"rules": [], "rules": []}', [": rules is given twice"]),
+        ('{"rules": [], "origin": 3}', [": origin: expected an object, got 3"]),
         (
-            '{"rules": [{"precondition": []}]}',
-            [": rule 1: unknown key 'precondition'; did you mean preconditions?"],
+            '{"ruels": [], "rules": [{"precondition": [], "enabled": true, "enabled": false}]}',
+            [
+                ": unknown key 'ruels'; did you mean rules?",
+                ": rule 1: unknown key 'precondition'; did you mean preconditions?",
+                ": rule 1: 'enabled' is given twice",
+            ],
         ),
         (
-            '{"rules": [{"actions": [{"p": 1, "behavior": "PHOTOTAXIS"}]}]}',
-            [": rule 1, action 1: unknown key 'behavior'; did you mean behaviour?"],
+            '{"rules": [{"preconditions": [{"name": "ON_NEST", "hold": true}], "actions": ['
+            '{"p": 1, "p": 0, "behaviour": "PHOTOTAXIS"}, {"p": 1, "behavior": "PHOTOTAXIS"}]}]}',
+            [
+                ": rule 1, precondition 1: unknown key 'hold'; did you mean holds?",
+                ": rule 1, action 1: 'p' is given twice",
+                ": rule 1, action 2: unknown key 'behavior'; did you mean behaviour?",
+            ],
         ),
         (
-            '{"rules": [{"behaviours": [{"name": "PHOTOTAXIS", "name": "X"}]}]}',
-            [": rule 1, behaviour 1: name is given twice"],
+            '{"rules": [], "rules": [], "state_machine": 0, "origin": {"run": "a", "rnu": "b"}}',
+            [": 'rules' is given twice", ": origin: unknown key 'rnu'; did you mean run?"],
         ),
-        ('{"rules": [], "origin": 3}', [": expected an origin, got 3"]),
+        (
+            '{"rules": [{"actions": [{"p": 1, "state": "WANT_OBJECT"}, '
+            '{"p": 1, "behaviour": "PHOTOTAXIS", "state": "WANT_OBJECT", "value": true}]}]}',
+            [
+                ": rule 1, action 1: value: expected a truth, a number or a name, got nothing",
+                ": rule 1, action 2: expected either behaviour, or state and value, got both",
+            ],
+        ),
     ],
 )
 def test_wrong_json_is_explained(text, messages):

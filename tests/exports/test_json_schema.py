@@ -64,6 +64,13 @@ def test_all_that_is_written_is_in_the_schema():
         {"rules": [{"actions": [{"p": 1, "state": "WANT_OBJECT"}]}]},
         {"rules": [], "origin": 3},
         {"rules": [], "origin": {"runs": "x"}},
+        {"rules": [], "origin": None},
+        {"rules": [], "origin": {"generations": 3}},
+        {"rules": None},
+        {"rules": [], "schema": True},
+        {"rules": [{"preconditions": [{"name": "ON_NEST", "holds": True, "p": 1}]}]},
+        {"rules": [{"actions": [{"p": 1, "behavior": "PHOTOTAXIS"}]}]},
+        {"rules": [{"actions": [{"p": 1, "behaviour": "PHOTOTAXIS", "value": True}]}]},
     ],
 )
 def test_what_reading_refuses_does_not_fit(wrong):

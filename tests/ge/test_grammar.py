@@ -49,6 +49,33 @@ def test_symbols_need_no_space_between_them():
     assert grammar.rules["e"] == (("sin(", e, ")+", e), ("x<y",))
 
 
+def test_escapes_in_quotes_mean_what_they_mean_in_ponyge2():
+    grammar = Grammar.parse(
+        r"""<a> ::= 'if x:\n\ty  = "\\d"\n' | "\"" | '\'' | "\\" "\r\f\v\a\b" """
+    )
+    assert grammar.rules["a"] == (
+        ("if", " ", "x:\n\ty", " ", " ", "=", " ", '"\\d"\n'),
+        ('"',),
+        ("'",),
+        ("\\", " ", "\r\f\v\a\b"),
+    )
+
+
+def test_a_line_break_between_symbols_stays():
+    grammar = Grammar.parse("<a> ::= 'x'  \n  y<b>\n\n\tz\n  | # c\n  u\n<b> ::= ''\n v\n\n# end")
+    b = NonTerminal("b")
+    assert grammar.rules["a"] == (("x", "\n", "y", b, "\n\n\t", "z"), ("u",))
+    assert grammar.rules["b"] == (("\n", "v"),)
+
+
+@pytest.mark.parametrize("name", ["0_9", "1st", "größe", "a+b", "a.b:c-d", "=", "日本"])
+def test_names_are_those_of_ponyge2_and_geva(name):
+    grammar = Grammar.parse(f"<s> ::= -<{name}>x | y\n<{name}>::=z")
+    assert grammar.rules["s"][0] == ("-", NonTerminal(name), "x")
+    first = findings(f"<s> ::= <{name}> | x")[0]
+    assert first.startswith(f"toy.bnf:1: <{name}> is not defined")
+
+
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [
@@ -65,6 +92,14 @@ def test_symbols_need_no_space_between_them():
         ("<a> ::= b\n<c> ::= <d>\n<d> ::= <c> x", 2, "<c> never ends"),
         ("<a> ::= <GECodonValue{1, 2}>", 1, "GECodonValue is not supported"),
         ("<a> ::= b\\n", 1, "unexpected backslash"),
+        (r"<a> ::= '\d'", 1, r"expected \\ for a backslash"),
+        (r"<a> ::= '\x41'", 1, r"or \n \t"),
+        (r"<a> ::= 'b\'", 1, "expected a closing '"),
+        ("<a> ::= x # c\n  y", 2, "expected | or the end of the rule after a comment, got 'y'"),
+        ("<my name> ::= x", 1, "expected a name without white space"),
+        ("<a> ::= x\n<it's> ::= x", 2, "expected a name without white space, |, quotes"),
+        ("<> ::= x", 1, "expected a name"),
+        ("<a> ::= x <my name> | y", 1, "expected a name without white space, or quotes"),
         ("<a> ::= x[<b>]\n<b> ::= GE_RANGE:n_vars", 2, "GE_RANGE is not supported"),
     ],
 )

@@ -31,14 +31,25 @@ def naive_map(grammar, genome, max_wraps):
             chosen = genome[at] % len(alternatives)
             at, used = at + 1, used + 1
         sentence = [*alternatives[chosen], *sentence]
-    return " ".join("".join(words).split()), used
+    return spaced("".join(words)), used
+
+
+def spaced(text):
+    """Several spaces are one, but for those that a line after the first begins with."""
+    kept = ""
+    for character in text.strip(" "):
+        indented = kept.rpartition("\n")[1] and not kept.rpartition("\n")[2].strip(" ")
+        if character != " " or indented or not kept.endswith(" "):
+            kept += character
+    return kept
 
 
 @st.composite
 def grammars(draw):
     """Small grammars: recursive on any side, ambiguous, with empty and forced productions."""
     names = ["s", "a", "b", "c"]
-    words = ["x", "y", "xy", "x-", ",", "0.1", "0", " ", "'x y'", "' '"]
+    words = ["x", "y", "xy", "x-", ",", "0.1", "0", " "]
+    words += ["'x y'", "' '", "'  '", r"'\n'", r"'x\n  '"]
     symbol = st.sampled_from([*words, *(f"<{n}>" for n in names)])
     alternative = st.lists(symbol, max_size=6).map(lambda symbols: "".join(symbols).strip() or '""')
     rules = []
@@ -142,6 +153,38 @@ def test_a_space_of_the_grammar_tells_derivations_apart():
     grammar = Grammar.parse("<n> ::= <d> <d> | <d><d>\n<d> ::= 0 | 1 | ''")
     for text in ("1 0", "10", "1", ""):
         assert Mapper(grammar).map(genome_of(grammar, text), 0).phenotype == text
+
+
+awkward = st.text(st.sampled_from("x0 <>|:='\"\\#\n\t\r\u2028é"), max_size=8)
+
+
+def quoted(text, quote):
+    for character, escaped in (("\\", r"\\"), ("\n", r"\n"), ("\r", r"\r"), (quote, f"\\{quote}")):
+        text = text.replace(character, escaped)
+    return f"{quote}{text}{quote}"
+
+
+@given(st.lists(st.lists(awkward, min_size=1, max_size=3), min_size=2, max_size=4), st.data())
+def test_a_grammar_that_was_written_derives_its_sentences(alternatives, data):
+    def written(texts):
+        quotes = (data.draw(st.sampled_from("'\"")) for _ in texts)
+        return "".join(map(quoted, texts, quotes))
+
+    grammar = Grammar.parse(f"<s> ::= {' | '.join(map(written, alternatives))}")
+    mapper = Mapper(grammar)
+    for number, texts in enumerate(alternatives):
+        sentence = mapper.map([number]).phenotype
+        assert sentence == spaced("".join(texts))
+        assert mapper.map(genome_of(grammar, sentence)).phenotype == sentence
+
+
+def test_lines_keep_their_indentation():
+    grammar = Grammar.parse(
+        r"<p> ::= 'if  x:\n'<b>'\n' | <b>" + "\n<b> ::= '    ' <c>\n<c> ::= 'y  z'"
+    )
+    for codon, sentence in ((0, "if x:\n     y z\n"), (1, "y z")):
+        assert Mapper(grammar).map([codon]).phenotype == sentence
+        assert genome_of(grammar, sentence) == (codon,)
 
 
 def test_white_space_does_not_matter(mapper):

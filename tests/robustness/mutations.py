@@ -17,6 +17,7 @@ NASTY_WORDS = (
     '"\\ud800"', '"\\UFFFFFFFF"', "[" * 3000, '"' + '\\"' * 3000, "x" * 20_000, "rule", "if",
     "while", "do", "and", "or", "name", "origin", "off", "p = 2,", "extends", "../../x", "<a>",
     "<s> ::=", "GE_RANGE:3", "ON_NEST == maybe", "__class__", "</script>", "[/red]", "{0}",
+    "<1st>", "<ü>", "<a b>", "'\\n'", "'\\d'", '"\\""', "# c\n", '"rules": 1,', "\r\n",
 )  # fmt: skip
 
 NASTY_VALUES = (
@@ -80,6 +81,16 @@ def mutated_bytes(rng, example):
         else:
             del data[at:]
     return bytes(data)
+
+
+ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "utf-16-be", "utf-32", "latin-1", "cp1252")
+
+
+def saved_text(rng, text):
+    """A text as an editor saves it, now and then with something wrong in its bytes."""
+    text = text.replace("\n", rng.choice(("\n", "\r\n", "\r")))
+    data = text.encode(rng.choice(ENCODINGS), "replace")
+    return data if rng.random() < 0.7 else mutated_bytes(rng, data)
 
 
 def mutated_value(rng, value):

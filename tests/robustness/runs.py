@@ -1,21 +1,24 @@
 """Files and run directories: they are read in the current directory, which the tests make."""
 
+import io
 import json
 import shutil
 import sqlite3
+import sys
 import tempfile
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 from hypothesis import strategies as st
 
 from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
-from geswarm.ge import Engine, Settings, StoreError
+from geswarm.ge import Engine, Grammar, GrammarError, Settings, StoreError
 from geswarm.ge.engine import CheckpointError
 from geswarm.rules import FORMATS, RuleSetError, load_rule_set
 from geswarm.sim import ScenarioError, load_scenario
 from tests.robustness import mutations
-from tests.robustness.doors import PAPER, RULE_SETS, Door
+from tests.robustness.doors import GRAMMAR, PAPER, RULE_SETS, Door
 from tests.strategies import documented_rule_sets
 
 SETTINGS = Settings(population=4, generations=3, evaluations=1)
@@ -41,8 +44,25 @@ def example_run():
 
 
 def file_of_rules(data):
+    """The same from a file and from standard input."""
     Path("mine.rules").write_bytes(data)
-    load_rule_set("mine.rules")
+    stdin, sys.stdin = sys.stdin, SimpleNamespace(buffer=io.BytesIO(data))
+    try:
+        typed = load_rule_set("-")
+    except RuleSetError as error:
+        typed = str(error).replace("<stdin>", "mine.rules")
+    finally:
+        sys.stdin = stdin
+    try:
+        assert load_rule_set("mine.rules") == typed
+    except RuleSetError as error:
+        assert str(error) == typed
+        raise
+
+
+def file_of_a_grammar(data):
+    Path("mine.bnf").write_bytes(data)
+    Grammar.load("mine.bnf")
 
 
 def file_of_a_scenario(data):
@@ -54,9 +74,14 @@ def file_inputs(*examples):
     def make(rng):
         if rng.random() < 0.2:
             return mutations.random_bytes(rng)
-        return mutations.mutated_bytes(rng, rng.choice(examples).encode())
+        return mutations.saved_text(rng, rng.choice(examples))
 
     return make
+
+
+def encoded(texts):
+    encodings = st.sampled_from(mutations.ENCODINGS)
+    return st.builds(lambda text, encoding: text.encode(encoding, "replace"), texts, encodings)
 
 
 # --- runs -------------------------------------------------------------------------------------
@@ -182,10 +207,13 @@ def doors():
     )
     return (
         Door("file of rules", file_of_rules, (RuleSetError,),
-             file_inputs(*map(FORMATS["yaml"], RULE_SETS), *map(text_of, RULE_SETS)),
-             st.binary(max_size=60) | documented_rule_sets.map(text_of).map(str.encode)),
+             file_inputs(*(write(one) for write in FORMATS.values() for one in RULE_SETS)),
+             st.binary(max_size=60) | encoded(documented_rule_sets.map(text_of))),
+        Door("file of a grammar", file_of_a_grammar, (GrammarError,), file_inputs(GRAMMAR),
+             st.binary(max_size=60) | encoded(st.text(max_size=30))),
         Door("file of a scenario", file_of_a_scenario, (ScenarioError,),
-             file_inputs("duration: 1\n", PAPER.to_yaml()), st.binary(max_size=60)),
+             file_inputs("duration: 1\n", PAPER.to_yaml()),
+             st.binary(max_size=60) | encoded(st.text(max_size=30))),
         Door("run.db, damaged", damaged_database, (StoreError,), damaged_bytes,
              st.tuples(st.binary(max_size=200), st.binary(max_size=50))),
         Door("run.db, wrong rows", wrong_rows, (StoreError,), row_changes,

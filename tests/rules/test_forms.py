@@ -129,6 +129,21 @@ def test_yaml_errors_name_line_rule_and_element_all_at_once():
     ]
 
 
+def test_what_is_given_twice_is_refused_at_every_level():
+    assert messages(
+        parse_yaml,
+        "name:\nname: x\norigin: {run: a, run: b}\nrules:\n- do: []\n"
+        "  do:\n  - p = 1, PHOTOTAXIS\n",
+    ) == [
+        "my.rules:2: name is given twice",
+        "my.rules:6: rule 1: do is given twice",
+        "my.rules:3: run is given twice",
+    ]
+    assert messages(
+        parse_text, 'name "a"\nname "b"\norigin run "a", run "b"\nrule do p = 1, PHOTOTAXIS'
+    ) == ["my.rules:2: name is given twice", "my.rules:3: origin: run is given twice"]
+
+
 @pytest.mark.parametrize(
     "text",
     ["", "   ", "rules", "rule rule if", "\0", "name", 'name "x', "if", "p = 1", "rule do" * 50],

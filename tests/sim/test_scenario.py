@@ -122,6 +122,8 @@ def test_all_problems_at_once_with_their_places():
         ("arena: 4", "mine:1: arena: expected {width: ..., length: ...}"),
         ("width: 4", "mine:1: unknown key 'width'; did you mean arena: width?"),
         ("robots: 4\nrobots: 5", "mine:2: robots: given twice, first in line 1"),
+        ("arena:\n  width: 4\n  width: 5", "mine:3: arena: 'width' is given twice"),
+        ("extends: paper\nextends: paper", "mine:2: extends: given twice, first in line 1"),
         ("name: x\n", "mine:1: unknown key 'name'; "),
         ("[1]: 4", "mine:1: unknown key None; "),
         ("extends: papper", "mine:1: extends: there is no scenario or file 'papper'; did you mean"),
