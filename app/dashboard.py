@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import logging
-import os
 import signal
 import sys
 import threading
@@ -15,7 +14,7 @@ import viser
 from geswarm.cli import UsageError
 from geswarm.cli.stopping import compile_first
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
-from geswarm.sim import Scenario, ScenarioError, load_scenario
+from geswarm.sim import Scenario, ScenarioError, available_cores, load_scenario
 
 from .panels.evolution_page import EvolutionPage
 from .panels.evolution_panel import EvolutionPanel
@@ -29,7 +28,8 @@ from .panels.swarm_panel import SwarmPanel
 from .scene.recorder import Recorder
 from .scene.stage import Stage
 from .server.access import Access, machine_address
-from .server.gate import ServerError, open_server
+from .server.gate import open_server
+from .server.listening import ServerError
 from .state.evolution import EvolutionThread
 from .state.journal import Journal, journal_directory
 from .state.session import Session
@@ -195,9 +195,9 @@ def run_dashboard(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: dashboard.stop())
-    _announce(dashboard, port)
     dashboard.session.post(lambda session: session.play())
     try:
+        _announce(dashboard, port)
         dashboard.run()
     finally:
         evolution = dashboard.session.evolution
@@ -232,7 +232,7 @@ def open_dashboard(
         ServerError: It cannot listen there.
     """
     if workers is None:
-        workers = max(1, (os.cpu_count() or 1) - 1)
+        workers = max(1, available_cores() - 1)
     journal = Journal(journal_directory())
     session = Session(scenario, rule_set, EvolutionThread(workers), journal=journal)
     return Dashboard(session, Access.to_host(host, private), port, dark)

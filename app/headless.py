@@ -9,15 +9,10 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeRemainingColumn,
-)
+from rich.progress import MofNCompleteColumn, Progress
 
 from geswarm.cli import UsageError
+from geswarm.cli.output import progress_columns
 from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
 from geswarm.evolution import (
     ClusterError,
@@ -107,11 +102,7 @@ def _evolve(
         soft_wrap=True,
     )
     progress = Progress(
-        MofNCompleteColumn(),
-        BarColumn(bar_width=None),
-        TextColumn("{task.fields[figures]}"),
-        TimeRemainingColumn(compact=True),
-        TextColumn("left"),
+        *progress_columns(MofNCompleteColumn, "{task.fields[figures]}"),
         console=console,
         expand=True,
     )

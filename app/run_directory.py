@@ -6,6 +6,7 @@ from datetime import datetime
 from itertools import count
 from pathlib import Path
 
+from geswarm.cli.output import shortened
 from geswarm.evolution import RunConfig
 
 RUNS = Path("runs")
@@ -13,7 +14,7 @@ RUNS = Path("runs")
 
 def new_run_directory(config: RunConfig, parent: Path = RUNS) -> Path:
     """A name for a run that is not taken: scenario, seed and time; the directory is not made."""
-    return new_directory(f"{config.scenario.name[:100]}-seed{config.seed}", parent)
+    return new_directory(f"{shortened(config.scenario.name)}-seed{config.seed}", parent)
 
 
 def new_directory(what: str, parent: Path = RUNS) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import platform
 import random
 import tempfile
@@ -20,7 +19,14 @@ from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
 from geswarm.ge import Settings
 from geswarm.ge.mapping import CODON_LIMIT, Mapper
 from geswarm.rules import ControlTable, load_preset
-from geswarm.sim import CONTROL_STEP, Scenario, World, evaluate, load_scenario
+from geswarm.sim import (
+    CONTROL_STEP,
+    Scenario,
+    World,
+    available_cores,
+    evaluate,
+    load_scenario,
+)
 from geswarm.sim.batch import Group
 from geswarm.sim.encoding import encode_tables
 from geswarm.sim.kernels.state import LANES
@@ -162,7 +168,7 @@ def _runs() -> tuple[float, float | None]:
 
     turns = [[_seconds(run_all, workers) for workers in (1, 2, None)] for _ in range(_REPEATS)]
     one, two, every = (min(column) for column in zip(*turns, strict=True))
-    return len(simulations) / every, one / two if _cores() > 1 else None
+    return len(simulations) / every, one / two if available_cores() > 1 else None
 
 
 def _generation() -> float:
@@ -217,10 +223,6 @@ def _mapping() -> float:
     return len(genomes) / min(_cpu_seconds(map_all) for _ in range(_REPEATS))
 
 
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _cpu() -> str:
     """The processor's name and the number of cores."""
     name = platform.processor() or platform.machine()
@@ -231,4 +233,4 @@ def _cpu() -> str:
                 break
     except OSError:
         pass  # not Linux
-    return f"{name}, {_cores()} cores"
+    return f"{name}, {available_cores()} cores"

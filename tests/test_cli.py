@@ -1,6 +1,7 @@
 """The `geswarm` verbs as a user calls them."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -53,6 +54,23 @@ def test_evaluate_prints_a_table(quick_scenario, capsys):
     out = capsys.readouterr().out
     assert "hand-coded" in out
     assert "Mann-Whitney" in out
+
+
+def test_in_a_log_rows_of_long_names_can_be_told_apart(
+    quick_scenario, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.chdir(tmp_path)
+    folder = "campaign-of-the-spring/zones-missed-often/population-two-hundred"
+    names = [f"{folder}/[seed]-{seed}/best.rules" for seed in (1, 2)]
+    for name in names:
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).write_text("rule do p = 0.1, PHOTOTAXIS")
+    assert main(["evaluate", *names, "--scenario", quick_scenario, "--runs", "2"]) == 0
+    table = capsys.readouterr().out.partition(f"{folder}/[seed]-1/best.rules beats")[0]
+    assert max(map(len, table.splitlines())) <= 80
+    assert all(name in re.sub(r"\s+|\d+\.\d+", "", table) for name in names)
+    assert table.split().count("0.0") == 8
 
 
 @pytest.mark.slow
@@ -210,6 +228,24 @@ def test_export_writes_through_a_link(tmp_path):
     assert main(["export", "evo8", "--to", "dot", "-o", str(link)]) == 0
     assert link.is_symlink()
     assert file.read_text().startswith("digraph")
+
+
+@pytest.mark.parametrize("letter", ["n", "群"])
+def test_export_writes_any_name_that_can_be(letter, tmp_path, capsys):
+    longest = 255 // len(letter.encode())
+    for suffix, more in ((".svg", []), (".lua", ["--experiment", ".argos"])):
+        form = "argos-lua" if more else "svg"
+        name, *others = [
+            str(tmp_path / (letter * (longest - len(ending)) + ending))
+            for ending in (suffix, *more[1:])
+        ]
+        arguments = ["export", "evo8", "--to", form, "-o", name]
+        assert main([*arguments, *more[:1], *others]) == 0
+    assert len(list(tmp_path.iterdir())) == 4
+    too_long = str(tmp_path / (letter * (longest + 1)))
+    assert main(["export", "evo8", "--to", "dot", "-o", too_long]) == 2
+    assert "cannot be written: File name too long" in capsys.readouterr().err
+    assert len(list(tmp_path.iterdir())) == 4
 
 
 def test_export_offers_all_there_is():

@@ -12,7 +12,6 @@ import contextlib
 import inspect
 import io
 import logging
-import socket
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -29,6 +28,7 @@ from websockets.http11 import Request, Response
 
 from .access import Access
 from .channel import MAX_MESSAGE_BYTES, Channel
+from .listening import ServerError, free_port
 from .viser_messages import is_expected
 
 COMMON = "common"
@@ -83,10 +83,6 @@ class MadeFile:
 
 MadeFiles: TypeAlias = Callable[[str], "MadeFile | None"]
 """The file of a name, or None if there is none; called on a thread of its own."""
-
-
-class ServerError(RuntimeError):
-    """The dashboard's server cannot be started; the text says why."""
 
 
 class _Server(viser.ViserServer):
@@ -224,7 +220,7 @@ def open_server(
 
     Args:
         access: Address to listen on, and who is let in.
-        port: Port to listen on, 0 for any free one. viser takes the next free one if it is busy:
+        port: Port to listen on, 0 for any free one; if it is busy, the next free one:
             `get_port()` of the result tells which.
         pages: Our own pages: the name of a folder of static/, served as `/<name>/`, and what
             handles the websocket `/<name>/socket`.
@@ -237,7 +233,7 @@ def open_server(
     """
     # Else two sockets, and any machine without IPv6 would fail on one.
     host = "127.0.0.1" if access.host == "localhost" else access.host
-    _check_address(host, port)
+    port = free_port(host, port)
     gate = Gate(access, pages, static_folder(), made or {})
     with _construction, _wrapped_serve(gate), contextlib.redirect_stdout(io.StringIO()):
         # viser's banner is kept quiet: the app prints the address itself.
@@ -263,20 +259,6 @@ def _wrapped_serve(gate: Gate) -> Iterator[None]:
         yield
     finally:
         websockets.asyncio.server.serve = original  # type: ignore[misc]
-
-
-def _check_address(host: str, port: int) -> None:
-    """Raise ServerError for an address on which viser's constructor would wait for ever."""
-    if not 0 <= port <= 65535:
-        raise ServerError(f"port: expected 0 to 65535, got {port}")
-    try:
-        for family, kind, protocol, _, address in socket.getaddrinfo(
-            host, 0, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        ):
-            with socket.socket(family, kind, protocol) as probe:
-                probe.bind(address)
-    except (OSError, UnicodeError) as error:
-        raise ServerError(f"host: cannot listen on {host!r}: {error}") from error
 
 
 def static_folder() -> Path:

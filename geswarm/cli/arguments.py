@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Sequence
-from io import TextIOWrapper
 from typing import TypeAlias
+
+from geswarm.cli.streams import OutputError, abandon_output, prepare_streams
 
 Verbs: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where each group of verbs adds its own."""
@@ -23,21 +24,29 @@ class UsageError(Exception):
 
 def run_command(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> int:
     """Parse, run the chosen command and turn every expected failure into one clear message."""
-    if isinstance(sys.stdout, TextIOWrapper):  # rather \u2190 than an error where it has no ←
-        sys.stdout.reconfigure(errors="backslashreplace")
-    options = parser.parse_args(arguments)
-    command: Callable[[argparse.Namespace], int] = options.command
+    prepare_streams()
     try:
-        return command(options)
-    except UsageError as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:
-        sys.stderr.close()
+        try:
+            options = parser.parse_args(arguments)
+            command: Callable[[argparse.Namespace], int] = options.command
+            return command(options)
+        finally:
+            sys.stdout.flush()
+    except (UsageError, ImportError) as error:  # the second: not installed as it should be
+        return _end(parser, str(error), 2)
+    except BrokenPipeError:  # who read it has seen enough
+        abandon_output()
         return 1
+    except OutputError as error:
+        abandon_output()
+        return _end(parser, str(error), 1)
     except KeyboardInterrupt:
-        print(f"{parser.prog}: stopped", file=sys.stderr)
-        return 130
+        return _end(parser, "stopped", 130)
+
+
+def _end(parser: argparse.ArgumentParser, message: str, status: int) -> int:
+    print(f"{parser.prog}: {message}", file=sys.stderr)
+    return status
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:

@@ -13,7 +13,7 @@ from geswarm.cli.arguments import (
     Verbs,
     add_simulation_options,
 )
-from geswarm.cli.output import progress_bar, require_writable, write_files
+from geswarm.cli.output import print_table, progress_bar, require_writable, write_files
 from geswarm.cli.stopping import compile_first
 
 if TYPE_CHECKING:
@@ -59,30 +59,23 @@ def _compare(options: argparse.Namespace) -> int:
             on_progress=on_progress,
         )
     compared = Compared(rule_sets, samples, options.rules[0], options.runs, options.seed)
-    if options.json:
-        print(json.dumps(compared.document()))
-    else:
-        _print_table(compared)
-    if options.html is not None:
-        write_files({options.html: compared.page()})
+    try:
+        if options.json:
+            print(json.dumps(compared.document()))
+        else:
+            _print_table(compared)
+    finally:  # whichever cannot be written, the other one is
+        if options.html is not None:
+            write_files({options.html: compared.page()})
     return 0
 
 
 def _print_table(compared: Compared) -> None:
-    from rich.box import SIMPLE_HEAD
     from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
 
     from geswarm.analysis.compared import HEADINGS
 
-    console = Console()
     title = f"Collected objects, {compared.runs} runs each, seed {compared.seed}"
-    table = Table(title=title, box=SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
-    for at, heading in enumerate(HEADINGS):
-        table.add_column(heading, justify="left" if at < 2 else "right", overflow="fold")
-    for row in compared.rows():
-        table.add_row(*map(Text, row))
-    console.print(table)
+    print_table(title, HEADINGS[:2], HEADINGS[2:], compared.rows())
     if compared.explanation:
-        console.print(compared.explanation, markup=False, highlight=False)
+        Console().print(compared.explanation, markup=False, highlight=False)

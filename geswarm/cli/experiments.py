@@ -15,7 +15,7 @@ from geswarm.cli.arguments import (
     Verbs,
     add_simulation_options,
 )
-from geswarm.cli.output import progress_bar
+from geswarm.cli.output import print_table, progress_bar
 from geswarm.cli.stopping import compile_first
 
 if TYPE_CHECKING:
@@ -93,18 +93,15 @@ def _print_evaluations(
     pairs: Sequence[tuple[int, int, Comparison]],
 ) -> None:
     from rich.console import Console
-    from rich.table import Table
 
+    title = f"Collected objects, scenario {options.scenario}, {options.runs} runs each"
+    summaries = [evaluation.summary() for evaluation in evaluations]
+    rows = [
+        [name, *(f"{summary[key]:.1f}" for key in ("mean", "sd", "median", "lost_mean"))]
+        for name, summary in zip(options.rules, summaries, strict=True)
+    ]
+    print_table(title, ["rules"], ["mean", "sd", "median", "lost (mean)"], rows)
     console = Console(markup=False, emoji=False)
-    table = Table(title=f"Collected objects, scenario {options.scenario}, {options.runs} runs each")
-    table.add_column("rules")
-    for heading in ("mean", "sd", "median", "lost (mean)"):
-        table.add_column(heading, justify="right")
-    for name, evaluation in zip(options.rules, evaluations, strict=True):
-        row = evaluation.summary()
-        figures = [f"{row[key]:.1f}" for key in ("mean", "sd", "median", "lost_mean")]
-        table.add_row(name, *figures)
-    console.print(table)
     for a, b, comparison in pairs:
         ahead, behind, effect = a, b, comparison.effect
         if effect < 0.5:

@@ -5,11 +5,20 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from geswarm.cli.arguments import UsageError
+
+if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
+    from rich.table import Column
+
+_NARROWEST_NAME = 10
+_LONGEST_STEM = 100  # bytes; file systems take 143 to 255
 
 
 def write_files(files: Mapping[str | None, str]) -> None:
@@ -49,9 +58,78 @@ def require_writable(path: str) -> None:
         raise _cannot_be_written(path, error) from error
 
 
+def shortened(stem: str) -> str:
+    """A name to which a file's name can add more: long ones become their beginning and a number."""
+    name = os.fsencode(stem)
+    if len(name) <= _LONGEST_STEM:
+        return stem
+    number = f"-{zlib.crc32(name):08x}"
+    return name[: _LONGEST_STEM - len(number)].decode(errors="ignore") + number
+
+
 def _cannot_be_written(path: str, error: Exception) -> UsageError:
     reason = getattr(error, "strerror", None) or str(error)
     return UsageError(f"{path}: cannot be written: {reason}")
+
+
+def print_table(
+    title: str, names: Sequence[str], figures: Sequence[str], rows: Sequence[Sequence[str]]
+) -> None:
+    """Print a table in which nothing is cut: long names are folded, figures are whole.
+
+    Args:
+        title: What it shows.
+        names: Headings of the first columns.
+        figures: Headings of the other columns.
+        rows: A text for each column.
+    """
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(
+        title=Text(title), box=SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0), pad_edge=False
+    )
+    headings = [*names, *figures]
+    least = 2 * (len(headings) - 1)  # between the columns
+    for at, (heading, *texts) in enumerate(zip(headings, *rows, strict=True)):
+        whole = max(map(len, [*heading.split(), *texts]))
+        if at < len(names):
+            table.add_column(heading, overflow="fold")
+            least += min(whole, _NARROWEST_NAME)
+        else:
+            table.add_column(heading.replace(" ", "\n"), justify="right", no_wrap=True)
+            least += whole
+    for row in rows:
+        table.add_row(*map(Text, row))
+    console = Console()
+    console.width = max(console.width, least)
+    console.print(table)
+
+
+def progress_columns(count: Callable[..., ProgressColumn], text: str) -> list[ProgressColumn]:
+    """A count, a bar, a text and the time left, for an expanded `Progress`.
+
+    In a narrow terminal the bar gives way, then the text is folded; no number is cut.
+
+    Args:
+        count: Kind of column.
+        text: In rich's form, such as `{task.description}`.
+    """
+    from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+    from rich.table import Column
+
+    def whole() -> Column:
+        return Column(no_wrap=True)
+
+    return [
+        count(table_column=whole()),
+        BarColumn(bar_width=None, table_column=Column(ratio=1)),
+        TextColumn(text, markup=False, table_column=Column(overflow="fold")),
+        TimeRemainingColumn(compact=True, table_column=whole()),
+        TextColumn("left", table_column=whole()),
+    ]
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
 from geswarm.cli.arguments import UsageError, Verbs, non_negative_int, positive_int
+from geswarm.cli.output import progress_columns
 from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
 
 if TYPE_CHECKING:
@@ -92,21 +93,11 @@ def _carry_out(campaign: Campaign, options: argparse.Namespace, stop: threading.
 def _progress() -> Iterator[OnProgress]:
     """A bar over the whole campaign with the time left; where there is no terminal, lines."""
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        Progress,
-        TaskProgressColumn,
-        TextColumn,
-        TimeRemainingColumn,
-    )
+    from rich.progress import Progress, TaskProgressColumn
 
     console = Console(stderr=True)
     progress = Progress(
-        TaskProgressColumn(),
-        BarColumn(bar_width=None),
-        TextColumn("{task.description}", markup=False),
-        TimeRemainingColumn(),
-        TextColumn("left"),
+        *progress_columns(TaskProgressColumn, "{task.description}"),
         console=console,
         disable=not console.is_terminal,
         expand=True,

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from geswarm.cli.arguments import RULES_HELP, SCENARIO_HELP, UsageError, Verbs
-from geswarm.cli.output import write_files
+from geswarm.cli.output import shortened, write_files
 
 if TYPE_CHECKING:
     from geswarm.rules import RuleSet
@@ -164,7 +164,7 @@ def _argos_files(rule_set: RuleSet, options: argparse.Namespace) -> dict[str | N
         experiment = Path(options.experiment)
         if not experiment.name:
             raise UsageError(f"--experiment: expected a file, got {options.experiment!r}")
-        floor = experiment.with_name(f"{experiment.stem}-floor.ppm")
+        floor = experiment.with_name(f"{shortened(experiment.stem)}-floor.ppm")
         script = os.path.relpath(options.output, experiment.parent)
         files[str(floor)] = format_floor(scenario)
         files[str(experiment)] = format_argos_experiment(scenario, script, floor.name)

@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
 STOPPED_STATUS = 130
@@ -54,7 +54,8 @@ def compile_first(last_words: str) -> None:
     from geswarm.sim import is_compiled, warm_up
 
     def end(_number: int, _frame: object) -> None:
-        os.write(2, f"{last_words}\n".encode())
+        with suppress(OSError):
+            os.write(2, f"{last_words}\n".encode())
         os._exit(STOPPED_STATUS)
 
     if not is_compiled():

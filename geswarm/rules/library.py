@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import secrets
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -65,13 +66,15 @@ def load_rule_set(reference: str, vocabulary: Vocabulary = FORAGING) -> RuleSet:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         hint = f"neither a file ({reason}) nor a preset ({', '.join(preset_names())})"
-        raise RuleSetNotFoundError([Finding(Place(reference), hint)]) from error
+        if reference == "-":
+            hint = f"cannot be read: {reason}"
+        raise RuleSetNotFoundError([Finding(Place(source), hint)]) from error
     return read_rule_set(text, source, vocabulary)
 
 
 def _read_stdin() -> str:
     if sys.stdin is None:
-        raise ValueError("standard input is closed")
+        raise OSError("it is closed")
     stream = getattr(sys.stdin, "buffer", None)  # none where something else stands for it
     if stream is None:
         return sys.stdin.read(MAX_CHARACTERS + 1)
@@ -129,10 +132,10 @@ def write_whole(text: str, path: str | Path, through_links: bool = True) -> None
     if (link and through_links) or (not link and path.exists() and not path.is_file()):
         path.write_text(text, encoding="utf-8")
         return
-    draft = path.with_name(f".{path.name}.part")
+    draft = path.with_name(f".{secrets.token_hex(4)}.part")  # short, whatever the file's name
     try:
-        draft.unlink(missing_ok=True)  # it may be a link
-        draft.write_text(text, encoding="utf-8")
+        with draft.open("x", encoding="utf-8") as file:  # no link, and nobody else's
+            file.write(text)
         draft.replace(path)
     except OSError:
         draft.unlink(missing_ok=True)

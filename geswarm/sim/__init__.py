@@ -30,6 +30,7 @@ PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
 
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, evaluate
+from geswarm.sim.cores import available_cores
 from geswarm.sim.scenario import (
     Scenario,
     ScenarioError,
@@ -51,6 +52,7 @@ __all__ = [
     "Stop",
     "World",
     "WorldState",
+    "available_cores",
     "evaluate",
     "is_compiled",
     "load_scenario",

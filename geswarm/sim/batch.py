@@ -7,7 +7,6 @@ with a search for neighbours that suits them. Which way is a matter of the scena
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -20,6 +19,7 @@ from geswarm.rules.control_table import ControlTable
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
 from geswarm.sim.compiled import run_lanes, run_simulation, start_lanes, start_world
+from geswarm.sim.cores import available_cores
 from geswarm.sim.encoding import (
     Words,
     encode_scenario,
@@ -99,7 +99,7 @@ def evaluate(
         ValueError: A simulation names a table that does not exist or has a number out of range, a
             table is for another vocabulary, or workers < 1.
     """
-    workers = _available_cores() if workers is None else workers
+    workers = available_cores() if workers is None else workers
     if workers < 1:
         raise ValueError(f"workers: expected at least 1, got {workers}")
     todo = _checked(simulations, len(tables))
@@ -118,12 +118,6 @@ def evaluate(
         lost=tallies[:, LOST].copy(),
         picked=tallies[:, PICKED].copy(),
     )
-
-
-def _available_cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _checked(

@@ -1,8 +1,8 @@
-"""The kernels, compiled on first use and cached on disk.
+"""The kernels, compiled on first use and kept on disk.
 
-Numba's cache notices a change of the file that a kernel stands in, not of the files that it calls
-into: after an update it would go on running the old model. The kernels therefore get a fingerprint
-of all their sources as a constant, which is part of the cache's key.
+The cache notices a change of the file that a kernel stands in, not of the files that it calls into:
+after an update it would go on running the old model. The kernels therefore get a fingerprint of all
+their sources as a constant, which is part of the cache's key.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import platform
 import sys
 import zlib
@@ -14,38 +15,56 @@ import numba
 from geswarm.rules import ControlTable, RuleSet
 from geswarm.sim import compiled
 from geswarm.sim.batch import evaluate
+from geswarm.sim.kernels import cache
 from geswarm.sim.kernels.jit import vector_settings
 from geswarm.sim.scenario import load_scenario
 from geswarm.sim.world import World
 
 COMPILING = "Compiling the simulator for this machine, once: about 15 s …"
+COMPILING_EACH_TIME = "Compiling the simulator for this machine, each time: about 15 s …"
+NOT_KEPT = (
+    "The compiled simulator cannot be kept ({trouble}), so it compiles each time; "
+    "NUMBA_CACHE_DIR can name another folder for it"
+)
 
 
 def is_compiled() -> bool:
     """Whether `warm_up` has compiled this version on this machine before, and the cache is there.
 
-    Without a cache that can be written, everything is compiled in each process: False.
+    Without a folder that can be written, everything is compiled in each process: False.
     """
-    return _mark().exists()
+    return os.path.exists(_mark())  # noqa: PTH110, unlike Path's it is no error in a locked folder
 
 
 def warm_up(announce: Callable[[str], None] | None = None) -> None:
     """Compile everything, or load it if it has been compiled before (a fraction of a second).
 
     Args:
-        announce: Called with a message if compiling is going to take time; None writes it to
-            stderr.
+        announce: Called with a message if compiling is going to take time, and with another one
+            if it will again the next time; None writes them to stderr.
     """
-    if not is_compiled():
-        (announce or _to_stderr)(COMPILING)
+    announce = announce or _to_stderr
+    compiled_before = is_compiled()
+    if not compiled_before:
+        announce(COMPILING if cache.trouble() is None else COMPILING_EACH_TIME)
     small = load_scenario("paper").with_changes(duration=0.1)
     large = small.with_changes(robots=100, width=10.0)
     table = ControlTable.compile(RuleSet())
     for scenario in (small, large):
         evaluate([table], scenario, [(0, 0, 0, 0)], workers=1)
     World(small, RuleSet()).step()
-    with contextlib.suppress(OSError):  # no place for a cache: the message comes each time
-        _mark().touch()
+    if not compiled_before:
+        _remember(announce)
+
+
+def _remember(announce: Callable[[str], None]) -> None:
+    """Leave a mark that everything has been compiled and kept, or say why it is not."""
+    trouble = cache.trouble()
+    if trouble is None:
+        with contextlib.suppress(OSError):
+            _mark().touch()
+    else:
+        announce(NOT_KEPT.format(trouble=trouble))
 
 
 def _to_stderr(message: str) -> None:
@@ -53,7 +72,7 @@ def _to_stderr(message: str) -> None:
 
 
 def _mark() -> Path:
-    """A file beside numba's cache that says what has been compiled, for what."""
+    """A file beside the compiled code that says what has been compiled, for what."""
     machine = (platform.python_version(), numba.__version__, *vector_settings())
     key = zlib.crc32("|".join(machine).encode(), compiled.VERSION)
-    return Path(compiled.run_lanes.stats.cache_path) / f"compiled-{key:08x}"
+    return cache.folder() / f"compiled-{key:08x}"

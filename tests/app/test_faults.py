@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 from contextlib import closing, contextmanager, suppress
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -160,6 +161,14 @@ def test_a_busy_port_is_told(tmp_path):
             assert other > port
             errors = ends(process, signal.SIGINT)[2]
     assert errors == f"Port {port} is busy, using {other} instead.\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is full")
+def test_a_dashboard_whose_address_cannot_be_told_ends(tmp_path):
+    command = f"exec {sys.executable} -m geswarm.app.main --port 0 > /dev/full"
+    ended = subprocess.run(["sh", "-c", command], stderr=subprocess.PIPE, text=True)
+    said = "geswarm-ui: standard output cannot be written: No space left on device\n"
+    assert (ended.returncode, ended.stderr) == (1, said)
 
 
 def test_a_dashboard_goes_on_after_sleep():

@@ -27,12 +27,29 @@ def test_it_is_said_on_stderr(mark, capsys):
     assert err == startup.COMPILING + "\n"
 
 
-def test_without_a_place_for_a_cache(tmp_path, monkeypatch):
-    monkeypatch.setattr(startup, "_mark", lambda: tmp_path / "missing" / "mark")
+def test_where_nothing_can_be_kept_that_is_said_each_time(tmp_path, monkeypatch):
+    place = tmp_path / "a file"
+    place.touch()
+    monkeypatch.setattr(startup.cache, "folder", lambda: place)
+    for _ in range(2):
+        said = []
+        startup.warm_up(said.append)
+        first, last = said
+        assert first == startup.COMPILING_EACH_TIME
+        assert "no folder that can be written" in last
+        assert "compiles each time; NUMBA_CACHE_DIR can name another folder" in last
+        assert not startup.is_compiled()
+
+
+def test_on_a_disk_that_was_full_it_is_not_taken_for_compiled(mark, monkeypatch):
+    monkeypatch.setattr(startup.cache, "_not_kept", [])
+    monkeypatch.setattr(
+        startup, "evaluate", lambda *_, **__: startup.cache._not_kept.append("full")
+    )
     said = []
     startup.warm_up(said.append)
-    startup.warm_up(said.append)
-    assert len(said) == 2
+    assert said == [startup.COMPILING, startup.NOT_KEPT.format(trouble="full")]
+    assert not startup.is_compiled()
 
 
 def test_another_version_or_machine_has_another_mark(monkeypatch):

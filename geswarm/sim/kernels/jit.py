@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numba
 from numba.core import codegen
 
+from geswarm.sim.kernels.cache import KernelCache
+
 _config: Any = numba.config
 _codegen: Any = codegen
+
+if _config.DISABLE_JIT:
+    raise ImportError("NUMBA_DISABLE_JIT is set, but the simulator runs only compiled: unset it")
 
 
 def vector_settings() -> tuple[str, str]:
@@ -39,5 +45,9 @@ _OPTIONS: Any = {"error_model": "numpy", "_nrt": False}
 inlined: Any = numba.njit(forceinline=True, **_OPTIONS)
 """For functions that kernels call."""
 
-kernel: Any = numba.njit(cache=True, nogil=True, **_OPTIONS)
-"""For functions that Python calls: cached on disk, run without the interpreter's lock."""
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """For functions that Python calls: kept on disk, run without the interpreter's lock."""
+    dispatcher: Any = numba.njit(nogil=True, **_OPTIONS)(function)
+    dispatcher._cache = KernelCache(function)  # as numba's `cache=True` does with its own
+    return dispatcher

@@ -1,6 +1,6 @@
 """The kernels that run one simulation: by rules (says which fired), or by control table (faster).
 
-They are built by functions so that `geswarm.sim.compiled` can tell numba's cache about all sources:
+They are built by functions so that `geswarm.sim.compiled` can tell the cache about all sources:
 a kernel that mentions `version` has it in its cache key. That is why they return it.
 """
 
