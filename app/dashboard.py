@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Collection
 
 import viser
 
@@ -27,7 +28,7 @@ from .panels.show_panel import ShowPanel
 from .panels.swarm_panel import SwarmPanel
 from .scene.recorder import Recorder
 from .scene.stage import Stage
-from .server.access import Access, machine_address
+from .server.access import Access, Name, format_name, machine_address
 from .server.gate import open_server
 from .server.listening import ServerError
 from .state.evolution import EvolutionThread
@@ -43,7 +44,7 @@ _PAGES_WIDTH = 600
 _CONTROLS_WIDTH = 320
 _BRAND, _BRAND_IN_THE_DARK = (15, 98, 214), (59, 130, 246)
 _FRAME = (
-    '<iframe src="/{page}/{page}.html?theme={theme}" title="{title}" '
+    '<iframe src="{page}/{page}.html?theme={theme}" title="{title}" '
     'style="display:block;width:100%;height:calc(100vh - 72px);border:0"></iframe>'
 )
 
@@ -57,6 +58,7 @@ class Dashboard:
         server: viser's server, behind the gate.
         access: Who is let in.
         session: What is shown.
+        pages: What talks to each page beside the arena, by its name.
     """
 
     def __init__(self, session: Session, access: Access, port: int, dark: bool = False) -> None:
@@ -65,13 +67,13 @@ class Dashboard:
         self.rule_page = RulePage(session)
         self.evolution_page = EvolutionPage(session)
         self.experiments_page = ExperimentsPage(session)
-        pages = {
+        self.pages = {
             "rules": self.rule_page.channel,
             "evolution": self.evolution_page.channel,
             "experiments": self.experiments_page.channel,
         }
         made = {"experiments": self.experiments_page.made_file}
-        self.server = open_server(access, port, pages, "GESwarm", made)
+        self.server = open_server(access, port, self.pages, "GESwarm", made)
         self.stage = Stage(session)
         self.recorder = Recorder()
         self.swarm_panel = SwarmPanel(session)
@@ -91,8 +93,16 @@ class Dashboard:
     @property
     def link(self) -> str:
         """What to open in a browser: the address, with the token if one is demanded."""
+        return self.address if self.access.token is None else self._link("/")
+
+    @property
+    def page_links(self) -> list[str]:
+        """What to open in a browser without WebGL, which the pages beside the arena do not need."""
+        return [self._link(f"/{page}/{page}.html") for page in self.pages]
+
+    def _link(self, path: str) -> str:
         token = self.access.token
-        return self.address if token is None else f"{self.address}/?token={token}"
+        return f"{self.address}{path}" if token is None else f"{self.address}{path}?token={token}"
 
     def _build(self, dark: bool) -> None:
         gui = self.server.gui
@@ -190,6 +200,7 @@ def run_dashboard(options: argparse.Namespace) -> int:
             options.workers,
             options.dark,
             options.token,
+            options.allow_host or (),
         )
     except ServerError as error:
         raise UsageError(str(error)) from error
@@ -216,6 +227,7 @@ def open_dashboard(
     workers: int | None = None,
     dark: bool = False,
     private: bool = False,
+    names: Collection[Name] = (),
 ) -> Dashboard:
     """A dashboard that is served but not yet running.
 
@@ -227,6 +239,7 @@ def open_dashboard(
         workers: Threads for evolution; None leaves one core to the arena.
         dark: Light text on a dark ground.
         private: Demand a token even where only this machine can reach the address.
+        names: Under which a proxy reaches it.
 
     Raises:
         ServerError: It cannot listen there.
@@ -235,16 +248,27 @@ def open_dashboard(
         workers = max(1, available_cores() - 1)
     journal = Journal(journal_directory())
     session = Session(scenario, rule_set, EvolutionThread(workers), journal=journal)
-    return Dashboard(session, Access.to_host(host, private), port, dark)
+    return Dashboard(session, Access.to_host(host, private, names), port, dark)
 
 
 def _announce(dashboard: Dashboard, wanted_port: int) -> None:
     port = dashboard.server.get_port()
     if wanted_port not in (0, port):
         print(f"Port {wanted_port} is busy, using {port} instead.", file=sys.stderr)
-    if not dashboard.access.loopback:
+    access = dashboard.access
+    if not access.loopback:
         print(
             "Warning: whoever has the address below can use the dashboard; nothing is encrypted.",
             file=sys.stderr,
         )
     print(f"GESwarm is at {dashboard.link}  (Ctrl-C ends it)", flush=True)
+    print("Its pages that need no WebGL:", *dashboard.page_links, sep="\n  ", flush=True)
+    names = ", ".join(map(format_name, access.names))
+    if names and access.token is None:
+        print(
+            f"Warning: whoever can open {names} can use the dashboard, unless the proxy asks who "
+            "they are; --token lets in only who has the token.",
+            file=sys.stderr,
+        )
+    elif names:
+        print(f"Through a proxy ({names}), add to its address: ?token={access.token}", flush=True)

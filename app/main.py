@@ -16,7 +16,7 @@ from geswarm.cli import (
     run_command,
 )
 
-_DASHBOARD_ONLY = ("host", "port", "rules")
+_DASHBOARD_ONLY = ("host", "port", "allow_host", "rules")
 _SET_BY_THE_RUN = ("scenario", "preset", "generations", "population", "evaluations", "seed", "out")
 _HEADLESS_ONLY = (*_SET_BY_THE_RUN[1:], "resume", "cluster")
 
@@ -37,6 +37,14 @@ def _parser() -> argparse.ArgumentParser:
     dashboard = parser.add_argument_group("dashboard")
     dashboard.add_argument("--host", metavar="H", help="default: 127.0.0.1, this machine only")
     dashboard.add_argument("--port", type=_port, metavar="P", help="default: 8080")
+    dashboard.add_argument(
+        "--allow-host",
+        action="append",
+        type=_name,
+        metavar="NAME",
+        help="let in who reaches it under this name, through a proxy or a tunnel, with :PORT if "
+        "the browser's address has one; may be given several times",
+    )
     dashboard.add_argument(
         "--token",
         action="store_true",
@@ -74,6 +82,15 @@ def _port(text: str) -> int:
     return port
 
 
+def _name(text: str) -> tuple[str, int | None]:
+    from .server.access import parse_name
+
+    try:
+        return parse_name(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
 def _start(options: argparse.Namespace) -> int:
     if options.no_ui:
         _refuse(options, _DASHBOARD_ONLY, "is for the dashboard, not for --no-ui")
@@ -91,7 +108,7 @@ def _start(options: argparse.Namespace) -> int:
 
 
 def _refuse(options: argparse.Namespace, names: Sequence[str], reason: str) -> None:
-    given = [f"--{name}" for name in names if getattr(options, name) is not None]
+    given = [f"--{name.replace('_', '-')}" for name in names if getattr(options, name) is not None]
     if given:
         raise UsageError(f"{', '.join(given)} {reason}")
 

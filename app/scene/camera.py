@@ -18,6 +18,9 @@ FORWARD = np.array((0.0, math.cos(ELEVATION), -math.sin(ELEVATION)))
 NEAREST = 0.2
 """Nothing nearer than this is drawn, m; the larger, the better are flat layers told apart."""
 
+FARTHEST, NOTHING = 1000.0, 1.5
+"""Nothing farther than this is drawn, m: usually, and so that only the backdrop is drawn."""
+
 USUAL_ASPECT = 1.35
 """Width by height of the picture, where it is not known."""
 

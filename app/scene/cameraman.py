@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from .camera import FIELD_OF_VIEW, FORWARD, NEAREST, CameraPose, framing
+from .camera import FARTHEST, FIELD_OF_VIEW, FORWARD, NEAREST, NOTHING, CameraPose, framing
 
 CLOSE = 3.2
 """From the camera to the robot that it follows, m."""
@@ -17,7 +17,11 @@ _EASE = 0.15  # of the way to the robot, in each frame
 
 
 class Cameraman:
-    """Aims the cameras, until a user takes one elsewhere."""
+    """Aims the cameras, until a user takes one elsewhere.
+
+    A browser tells the shape of its window, and with it where its camera belongs, only when it has
+    drawn from somewhere else: until then its camera sees nothing.
+    """
 
     def __init__(self) -> None:
         self._poses: WeakKeyDictionary[viser.ClientHandle, CameraPose] = WeakKeyDictionary()
@@ -27,6 +31,7 @@ class Cameraman:
     def build(self, server: viser.ViserServer, points: npt.NDArray[np.float64]) -> None:
         """Begin, with these points in the picture; shape (n, 3), metres."""
         self._server = server
+        server.initial_camera.far = NOTHING
         self.frame(points)
         server.on_client_connect(self._welcome)
 
@@ -63,32 +68,48 @@ class Cameraman:
         return [c for c in self._server.get_clients().values() if c in self._welcomed]
 
     def _welcome(self, client: viser.ClientHandle) -> None:
-        client.camera.on_update(self._keep_framed)
+        client.camera.on_update(self._moved)
         self._welcomed.add(client)
         if self._followed is None:
-            self._keep_framed(client.camera)
+            self._moved(client.camera)
         else:
             _go_near(client, self._followed)
 
-    def _keep_framed(self, camera: viser.CameraHandle) -> None:
-        """Fit the picture to the shape of the window, until the user takes the camera elsewhere."""
+    def _moved(self, camera: viser.CameraHandle) -> None:
+        """Let a camera see, once it is where it belongs."""
+        if not self._keep_framed(camera) and camera.far < FARTHEST:
+            camera.far = FARTHEST
+
+    def _keep_framed(self, camera: viser.CameraHandle) -> bool:
+        """Fit the picture to the shape of the window, until the user takes the camera elsewhere.
+
+        Returns:
+            True if the camera was turned.
+        """
         if self._followed is not None:
-            return
+            return False
         poses = (self._usual_pose, self._poses.get(camera.client))
-        if any(pose is not None and pose.is_at(camera.position) for pose in poses):
-            self._aim(camera.client)
+        blind = camera.far < FARTHEST  # nobody has taken it anywhere
+        ours = any(pose is not None and pose.is_at(camera.position) for pose in poses)
+        return (blind or ours) and self._aim(camera.client)
 
     def _aim_all(self) -> None:
         for client in self._server.get_clients().values():
             self._aim(client)
 
-    def _aim(self, client: viser.ClientHandle) -> None:
-        """Turn one camera so that all points are in the picture, whatever its shape."""
+    def _aim(self, client: viser.ClientHandle) -> bool:
+        """Turn one camera so that all points are in the picture, whatever its shape.
+
+        Returns:
+            True if it had to be turned.
+        """
         pose = framing(self._points, client.camera.aspect)
         self._poses[client] = pose
-        if not pose.is_at(client.camera.position):
-            with client.atomic():
-                client.camera.position, client.camera.look_at = pose.position, pose.look_at
+        if pose.is_at(client.camera.position):
+            return False
+        with client.atomic():
+            client.camera.position, client.camera.look_at = pose.position, pose.look_at
+        return True
 
 
 def _go_near(client: viser.ClientHandle, target: npt.NDArray[np.float64]) -> None:

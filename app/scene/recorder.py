@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import threading
 from enum import Enum
+from urllib.parse import quote
 
 import viser
 from viser.infra import StateSerializer
+
+from ..server.gate import COMMON, static_folder
+from ..server.viewer_page import named
+from .camera import FARTHEST
 
 LONGEST_SECONDS = 300.0
 FILE_NAME = "geswarm-replay.html"
@@ -44,7 +49,10 @@ class Recorder:
     def start(self, server: viser.ViserServer, client: viser.ClientHandle | None) -> None:
         """Begin with the scene as it is, for the client that shall get the file."""
         if self.phase is RecorderPhase.IDLE:
+            camera = server.initial_camera
+            hidden, camera.far = camera.far, FARTHEST  # nobody aims the camera of a replay
             self._serializer = server.get_scene_serializer()
+            camera.far = hidden
             self._client = client
             self.seconds, self.problem = 0.0, ""
             self.phase = RecorderPhase.RECORDING
@@ -74,10 +82,16 @@ class Recorder:
 
     def _pack(self, serializer: StateSerializer, client: viser.ClientHandle | None) -> None:
         try:
-            content = serializer.as_html().encode()
+            content = named(serializer.as_html(), _icon()).encode()
             self.size = len(content)
             if client is not None:
                 client.send_file_download(FILE_NAME, content, save_immediately=True)
         except Exception as error:  # the arena goes on, and the user is told
             self.problem = f"{type(error).__name__}: {error}"
         self.phase = RecorderPhase.IDLE
+
+
+def _icon() -> str:
+    """Our icon as an address that holds it."""
+    icon = (static_folder() / COMMON / "icon.svg").read_text(encoding="utf-8")
+    return f"data:image/svg+xml,{quote(icon)}"

@@ -2,7 +2,8 @@
 
 viser starts its server with `websockets.asyncio.server.serve`. That one call is wrapped while a
 `viser.ViserServer` is constructed: every request is checked, paths below `/<page>/` and `/common/`
-are ours, and all others go on to viser unchanged.
+are ours, and all others go on to viser, whose page is served with our name and script in it. A path
+that a proxy has put before these makes no difference.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ import contextlib
 import inspect
 import io
 import logging
+import re
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any, TypeAlias
-from urllib.parse import unquote
+from typing import Any, TypeAlias, cast
+from urllib.parse import parse_qs, unquote
 
 import viser
 import websockets.asyncio.server
@@ -29,29 +31,24 @@ from websockets.http11 import Request, Response
 from .access import Access
 from .channel import MAX_MESSAGE_BYTES, Channel
 from .listening import ServerError, free_port
+from .responses import CONTENT_TYPES, PROTECTION, plain, refused, response
+from .viewer_page import served
 from .viser_messages import is_expected
 
 COMMON = "common"
 """The folder of static/ that all pages share."""
 
-CONTENT_TYPES = {
-    ".html": "text/html; charset=utf-8",
-    ".js": "text/javascript; charset=utf-8",
-    ".css": "text/css; charset=utf-8",
-    ".svg": "image/svg+xml",
-}
+_ADMITTED = f"/{COMMON}/admitted"
+"""Where a page asks whether websockets of its origin are let in, and if not, why."""
+
+_VIEWER = re.compile(r".*/(index\.html|[^./]*)", re.DOTALL)
+"""Paths of viser's page: they end in a slash, or in the name of a folder of a proxy's."""
+
 _MADE_TYPES = {
     ".html": CONTENT_TYPES[".html"],
     ".csv": "text/csv; charset=utf-8",
     ".json": "application/json",
 }
-
-PROTECTION = {
-    "Content-Security-Policy": "frame-ancestors 'self'",
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",  # the address may hold the token
-}
-"""Headers of every answer, unless it has stricter ones."""
 
 MAX_FRAME_BYTES = 4 * MAX_MESSAGE_BYTES
 """Of a websocket message: one that is longer is not read, and ends the connection. What is a little
@@ -63,6 +60,9 @@ _ALONE = (
     "frame-ancestors 'self'"
 )
 """Policy of made files: no access to anything, not to the dashboard that serves and shows them."""
+
+_MAX_TOLD = 20
+"""Refusals of which the terminal tells; strangers can think of any number of names."""
 
 _construction = threading.Lock()
 _logger = logging.getLogger(__name__)
@@ -125,6 +125,9 @@ class Gate:
         self.made = {f"/{page}/files/": files for page, files in made.items()}
         self.sockets = {f"/{page}/socket": channel for page, channel in pages.items()}
         self.folders = [static / name for name in (COMMON, *pages)]
+        names = "|".join(re.escape(folder.name) for folder in self.folders)
+        self.ours = re.compile(rf".*(/(?:{names})/.+)", re.DOTALL)
+        self.told: set[str] = set()
         self.widgets: Mapping[str, Any] = {}
         self.open = False
         self.used = False
@@ -147,7 +150,7 @@ class Gate:
 
     def _route(self, viser_handler: Any) -> Callable[[ServerConnection], Any]:
         async def handler(connection: ServerConnection) -> None:
-            channel = self.sockets.get(_path(connection.request))
+            channel = self.sockets.get(self._path(connection.request))
             if channel is not None:
                 await channel.serve(connection)
             else:
@@ -170,43 +173,92 @@ class Gate:
     def _process(self, viser_process: Any) -> Callable[[ServerConnection, Request], Any]:
         async def process(connection: ServerConnection, request: Request) -> Response | None:
             if not self.open:
-                return _plain(HTTPStatus.SERVICE_UNAVAILABLE, "the app is starting")
-            refusal = self.access.refusal(request, connection.local_address[1])
+                return plain(HTTPStatus.SERVICE_UNAVAILABLE, "the app is starting")
+            port, path = connection.local_address[1], self._path(request)
+            if path == _ADMITTED:
+                request = _from_its_page(request)
+            refusal = self.access.refusal(request, port)
             if refusal is not None:
-                return _plain(HTTPStatus.FORBIDDEN, refusal)
-            response = await self._made(request) or self._static(request)
-            if response is None and _path(request) not in self.sockets:
-                answer = viser_process(connection, request)
-                response = await answer if inspect.isawaitable(answer) else answer
-            if response is not None:
-                cookie = self.access.cookie(request)
+                self._tell(request, port)
+                return refused(request, refusal)
+            answer = await self._made(path) or self._static(path, request)
+            if answer is None and path not in self.sockets:
+                answer = await _viser_answer(viser_process, connection, request, path)
+            if answer is not None:
+                cookie = self.access.cookie(request, port)
                 for name, value in {**PROTECTION, **cookie}.items():
-                    response.headers.setdefault(name, value)
-            return response
+                    answer.headers.setdefault(name, value)
+            return answer
 
         return process
 
-    async def _made(self, request: Request) -> Response | None:
+    def _path(self, request: Request | None) -> str:
+        """What a request is for, without the path of a proxy before it."""
+        path = unquote(request.path.partition("?")[0]) if request is not None else ""
+        ours, viewer = self.ours.fullmatch(path), _VIEWER.fullmatch(path)
+        if ours is not None:
+            return ours[1]
+        return "/" if viewer is not None else path
+
+    def _tell(self, request: Request, port: int) -> None:
+        """Say in the terminal who was refused for where it came from, once."""
+        stranger = self.access.stranger(request, port)
+        if stranger is not None and stranger not in self.told and len(self.told) < _MAX_TOLD:
+            self.told.add(stranger)
+            _logger.warning("Refused: %s", stranger)
+
+    async def _made(self, path: str) -> Response | None:
         """Answer to a request for a file that a page makes; None if it is something else."""
-        path = _path(request)
         for prefix, files in self.made.items():
             if path.startswith(prefix):
                 file = await asyncio.to_thread(files, path.removeprefix(prefix))
                 if file is None:
-                    return _plain(HTTPStatus.NOT_FOUND, "not found")
+                    return plain(HTTPStatus.NOT_FOUND, "not found")
                 policy = {"Content-Security-Policy": _ALONE}
-                return _response(HTTPStatus.OK, _MADE_TYPES[file.suffix], file.body, policy)
+                return response(HTTPStatus.OK, _MADE_TYPES[file.suffix], file.body, policy)
         return None
 
-    def _static(self, request: Request) -> Response | None:
+    def _static(self, path: str, request: Request) -> Response | None:
         """Answer to a request for a file of ours; None for a websocket, or if it is viser's."""
-        path = _path(request)
-        if path in self.sockets and request.headers.get_all("Upgrade") == ["websocket"]:
+        if path in self.sockets and _is_websocket(request):
             return None
+        if path == _ADMITTED:
+            return plain(HTTPStatus.OK, "admitted")
         for folder in self.folders:
             if path.startswith(f"/{folder.name}/"):
                 return static_response(folder, path, request.headers["Host"])
         return None
+
+
+async def _viser_answer(
+    viser_process: Any, connection: ServerConnection, request: Request, path: str
+) -> Response | None:
+    """Viser's answer; None for its websocket."""
+    answer = viser_process(connection, Request(path, _without(request, "Accept-Encoding")))
+    answer = await answer if inspect.isawaitable(answer) else answer
+    if path != "/" or answer is None or answer.status_code != HTTPStatus.OK:
+        return cast("Response | None", answer)
+    page, packed = served(answer.body)
+    if "gzip" in ",".join(request.headers.get_all("Accept-Encoding")):
+        return response(HTTPStatus.OK, CONTENT_TYPES[".html"], packed, {"Content-Encoding": "gzip"})
+    return response(HTTPStatus.OK, CONTENT_TYPES[".html"], page, {})
+
+
+def _is_websocket(request: Request) -> bool:
+    return request.headers.get_all("Upgrade") == ["websocket"]
+
+
+def _from_its_page(request: Request) -> Request:
+    """A question as the page's websocket would ask it: fetching, pages do not tell their origin."""
+    headers = _without(request, "Origin")
+    origin = parse_qs(request.path.partition("?")[2]).get("origin", [""])[0]
+    headers["Origin"] = origin if origin.isascii() and origin.isprintable() else "null"
+    return Request(request.path, headers)
+
+
+def _without(request: Request, name: str) -> Headers:
+    kept = request.headers.raw_items()
+    return Headers([(key, value) for key, value in kept if key.lower() != name.lower()])
 
 
 def open_server(
@@ -281,35 +333,15 @@ def static_response(folder: Path, path: str, host: str) -> Response:
     known = {entry.name: entry for entry in folder.iterdir() if entry.suffix in CONTENT_TYPES}
     entry = known.get(path.removeprefix(f"/{folder.name}/"))
     if entry is None or not entry.is_file():
-        return _plain(HTTPStatus.NOT_FOUND, "not found")
+        return plain(HTTPStatus.NOT_FOUND, "not found")
     policy = (
         f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
         f"font-src 'self'; frame-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
         "base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
     )
-    return _response(
+    return response(
         HTTPStatus.OK,
         CONTENT_TYPES[entry.suffix],
         entry.read_bytes(),
         {"Content-Security-Policy": policy},
     )
-
-
-def _plain(status: HTTPStatus, line: str) -> Response:
-    return _response(status, "text/plain; charset=utf-8", f"{line}\n".encode(), {})
-
-
-def _response(status: HTTPStatus, kind: str, body: bytes, more: dict[str, str]) -> Response:
-    headers = {
-        "Content-Type": kind,
-        "Content-Length": str(len(body)),
-        "Cache-Control": "no-store",
-        "Connection": "close",
-        **PROTECTION,
-        **more,
-    }
-    return Response(status.value, status.phrase, Headers(headers), body)
-
-
-def _path(request: Request | None) -> str:
-    return unquote(request.path.partition("?")[0]) if request is not None else ""

@@ -4,6 +4,7 @@ import { h, icon, iconButton } from "./dom.js";
 
 const INFO_STAYS = 6000;
 const OTHERS_STAY = 5000;
+const LOST = "Connection lost, reconnecting… What you type is kept.";
 
 export class Notices {
   #told = 0;
@@ -16,7 +17,7 @@ export class Notices {
       "div",
       { class: "notice offline", role: "status", "data-testid": "offline", hidden: true },
       h("span", { class: "spinner", "aria-hidden": "true" }),
-      h("span", { class: "notice-text" }, "Connection lost, reconnecting… What you type is kept."),
+      h("span", { class: "notice-text" }, LOST),
     );
     this.others = h("div", { class: "others", role: "status", "data-testid": "others", hidden: true });
     root.append(this.offline, this.list, this.others);
@@ -77,8 +78,19 @@ export class Notices {
   }
 
   connected(yes) {
+    if (yes) this.#sayOffline(LOST);
     this.offline.hidden = yes;
     document.body.classList.toggle("disconnected", !yes);
+  }
+
+  /** There is no connection, and why. */
+  refused(why) {
+    this.#sayOffline(`Refused: ${why}`);
+  }
+
+  #sayOffline(text) {
+    const said = this.offline.querySelector(".notice-text");
+    if (said.textContent !== text) said.textContent = text;
   }
 
   /** Point at the connection notice: something could not be done without a connection. */

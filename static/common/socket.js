@@ -16,7 +16,11 @@ export class Socket {
 
   /**
    * @param {string} address
-   * @param {{opened: () => void, closed: () => void, message: (message: object) => void}} handlers
+   * @param {object} handlers
+   * @param {() => void} handlers.opened
+   * @param {() => void} handlers.closed
+   * @param {(why: string) => void} handlers.refused Called after `closed` if the server refuses this page.
+   * @param {(message: object) => void} handlers.message
    */
   constructor(address, handlers) {
     this.address = address;
@@ -48,6 +52,7 @@ export class Socket {
     socket.addEventListener("message", (event) => this.handlers.message(JSON.parse(event.data)));
     socket.addEventListener("close", () => {
       this.handlers.closed();
+      whyRefused().then((why) => why !== null && !this.open && this.handlers.refused(why)); // of refused.js
       setTimeout(() => this.#connect(), this.#delay);
       this.#delay = Math.min(LONGEST_DELAY, this.#delay * 1.6);
     });

@@ -1,6 +1,7 @@
 /** The tabs above the table, and the tools beside them. */
 
 import { h, identify } from "./dom.js";
+import { tabStore } from "./store.js";
 
 /**
  * @typedef {object} Tab
@@ -45,7 +46,7 @@ export class Tabs {
       this.tools[i].hidden = !selected;
       if (selected) shown?.();
     });
-    if (this.#kept) sessionStorage.setItem(this.#kept, this.tabs[at].id);
+    if (this.#kept) tabStore.set(this.#kept, this.tabs[at].id);
   }
 
   /**
@@ -54,7 +55,7 @@ export class Tabs {
    * @param {string} key Under which it is kept.
    */
   remember(key) {
-    const at = this.tabs.findIndex(({ id }) => id === sessionStorage.getItem(key));
+    const at = this.tabs.findIndex(({ id }) => id === tabStore.get(key));
     if (at > 0) this.show(at);
     this.#kept = key;
   }

@@ -82,6 +82,7 @@ const handlers = {
 const socket = new Socket(socketAddress(), {
   opened: () => notices.connected(true),
   closed: () => notices.connected(false),
+  refused: (why) => notices.refused(why),
   message: (message) => handlers[message.type]?.(message),
 });
 

@@ -3,6 +3,7 @@
 import { h } from "../common/dom.js";
 import { Notices } from "../common/notices.js";
 import { Socket, socketAddress } from "../common/socket.js";
+import { tabStore } from "../common/store.js";
 import { Tabs } from "../common/tabs.js";
 import { ChangesTab } from "./changes.js";
 import { listenToClipboard } from "./clipboard.js";
@@ -127,6 +128,7 @@ const socket = new Socket(socketAddress(), {
     tellDrafts("connectionlost");
     away = true;
   },
+  refused: (why) => notices.refused(why),
   message: (message) => handlers[message.type]?.(message),
 });
 
@@ -156,9 +158,9 @@ function wordsSwitch() {
   const show = (on) => {
     element("table").classList.toggle("in-words", on);
     button.setAttribute("aria-pressed", String(on));
-    sessionStorage.setItem("geswarm-words", on);
+    tabStore.set("geswarm-words", String(on));
   };
   button.addEventListener("click", () => show(button.getAttribute("aria-pressed") !== "true"));
-  show(sessionStorage.getItem("geswarm-words") === "true");
+  show(tabStore.get("geswarm-words") === "true");
   return button;
 }

@@ -2,6 +2,7 @@
 
 import { dialog } from "../common/dialog.js";
 import { h, identify } from "../common/dom.js";
+import { browserStore } from "../common/store.js";
 
 const MAX_NAME = 30;
 const KEPT = "geswarm-name";
@@ -23,7 +24,7 @@ export class People {
 
   /** Tell the server what this person is called; with every new connection. */
   introduce() {
-    const name = localStorage.getItem(KEPT);
+    const name = browserStore.get(KEPT);
     if (name) this.session.send({ type: "name", name });
   }
 
@@ -37,13 +38,13 @@ export class People {
   }
 
   #open() {
-    this.name.value = localStorage.getItem(KEPT) ?? "";
+    this.name.value = browserStore.get(KEPT) ?? "";
     this.node.showModal();
     this.name.focus();
   }
 
   #call(name) {
-    localStorage.setItem(KEPT, name);
+    browserStore.set(KEPT, name);
     this.session.send({ type: "name", name });
   }
 }

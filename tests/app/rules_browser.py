@@ -7,6 +7,9 @@ from tests.app.rules_server import RulesServer
 sync_api = pytest.importorskip("playwright.sync_api")
 expect = sync_api.expect
 
+GONE = ("WebSocket connection", "ERR_CONNECTION_REFUSED")
+"""What a browser says when the server has stopped."""
+
 
 @pytest.fixture(name="server")
 def server_fixture():
@@ -25,7 +28,7 @@ def page_fixture(browser, server):
         "console",
         lambda message: (
             complaints.append(message.text)
-            if message.type == "error" and "WebSocket connection" not in message.text
+            if message.type == "error" and not any(map(message.text.__contains__, GONE))
             else None
         ),
     )

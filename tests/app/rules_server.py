@@ -315,6 +315,8 @@ def _page(_connection, request):
     path = request.path.partition("?")[0]
     if path == "/rules/socket":
         return None
+    if path == "/common/admitted":
+        return Response(HTTPStatus.OK, "OK", Headers({"Content-Length": "0"}), b"")
     file = STATIC / path.removeprefix("/")
     if not (file.parent.parent == STATIC and file.suffix in TYPES and file.is_file()):
         return Response(HTTPStatus.NOT_FOUND, "Not Found", Headers(), b"")

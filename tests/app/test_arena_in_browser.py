@@ -72,8 +72,27 @@ def shows(behaviours, x=X):
     return condition
 
 
+# Of the first picture with more in it than the backdrop: how far away the camera is, and its shape.
+FIRST_PICTURE = """
+    const drawn = WebGL2RenderingContext.prototype;
+    let draws = 0;
+    for (const name of ["drawElements", "drawArrays", "drawElementsInstanced"]) {
+      const draw = drawn[name];
+      drawn[name] = function (...how) { draws += 1; return draw.apply(this, how); };
+    }
+    const look = () => {
+      const { camera, canvas: { clientWidth, clientHeight } = {} } = window.__viserMutable ?? {};
+      if (draws > 5) window.first = [camera.position.length(), clientWidth / clientHeight];
+      else requestAnimationFrame(look);
+      draws = 0;
+    };
+    requestAnimationFrame(look);
+"""
+
+
 @pytest.fixture
 def arena(server, page):
+    page.add_init_script(FIRST_PICTURE)
     arena = Arena()
     draw_backdrop(server.scene)
     arena.build(server.scene, PAPER)
@@ -98,6 +117,14 @@ def test_robots_are_drawn_where_they_are_in_the_colour_of_what_they_do(arena, pa
     arena.sync(view([GREEN, AMBER, BLUE], x=X - 0.5))
     image = wait_for(page, shows([GREEN, AMBER, BLUE], x=X - 0.5))
     assert strongest(around(image, X[1], Y[1]))[1] < 30
+
+
+def test_the_first_picture_of_the_arena_shows_all_of_it(arena, page):
+    page.set_viewport_size({"width": 620, "height": 1000})
+    page.reload()
+    distance, aspect = page.wait_for_function("window.first", timeout=40_000).json_value()
+    expected = framing(outer_points(PAPER), aspect).position
+    assert distance == pytest.approx(np.linalg.norm(expected), rel=0.01)
 
 
 def test_arena_stays_in_the_picture_when_the_window_changes(arena, page):

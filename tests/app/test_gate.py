@@ -108,7 +108,6 @@ def test_other_folders_are_not(server):
 @pytest.mark.parametrize(
     "path",
     [
-        "/rules/",
         "/rules/missing.js",
         "/rules/private.py",
         "/rules/folder.js",
