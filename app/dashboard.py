@@ -27,6 +27,7 @@ from .panels.scenario_panel import ScenarioPanel
 from .panels.show_panel import ShowPanel
 from .panels.swarm_panel import SwarmPanel
 from .scene.recorder import Recorder
+from .scene.replay import Setting
 from .scene.stage import Stage
 from .server.access import Access, Name, format_name, machine_address
 from .server.gate import open_server
@@ -76,7 +77,7 @@ class Dashboard:
         self.server = open_server(access, port, self.pages, "GESwarm", made)
         self.stage = Stage(session)
         self.recorder = Recorder()
-        self.swarm_panel = SwarmPanel(session)
+        self.swarm_panel = SwarmPanel(session, self.stage.keeper)
         self.inspector_panel = InspectorPanel(session)
         self.show_panel = ShowPanel(session)
         self.scenario_panel = ScenarioPanel(session)
@@ -163,12 +164,23 @@ class Dashboard:
 
     def _frame(self, elapsed: float) -> None:
         session = self.session
+        before = session.world.time
         session.frame(elapsed, _SIMULATION_SHARE * FRAME_SECONDS)
+        if self.recorder.recording:  # what was changed holds from before this frame's steps
+            self.recorder.note(Setting.of(session), min(before, session.world.time))
+        self.stage.captioned = self.recorder.recording
+        self.stage.keeper.frame = self._slowest_frame()
         self.stage.sync(elapsed)
         self.recorder.sync(elapsed)
         self.rule_page.sync(elapsed)
         self.evolution_page.sync(elapsed)
         self.experiments_page.sync(elapsed)
+
+    def _slowest_frame(self) -> float | None:
+        """Seconds per frame of the slowest browser, as the pages beside the arena tell."""
+        pages = (self.rule_page, self.evolution_page, self.experiments_page)
+        told = [page.channel.slowest_frame() for page in pages]
+        return max((frame for frame in told if frame is not None), default=None)
 
     def _sync_panels(self) -> None:
         for panel in (

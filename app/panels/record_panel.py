@@ -6,7 +6,8 @@ from html import escape
 
 import viser
 
-from ..scene.recorder import FILE_NAME, LONGEST_SECONDS, Recorder, RecorderPhase
+from ..scene.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
+from ..state.playback import clock
 from ..state.session import Session
 
 _START, _STOP = "Start recording", "Stop and download"
@@ -58,16 +59,12 @@ class RecordPanel:
 def status(recorder: Recorder) -> str:
     """What is going on, in one line."""
     if recorder.phase is RecorderPhase.RECORDING:
-        return f"Recording {_clock(recorder.seconds)} of at most {_clock(LONGEST_SECONDS)}."
+        return f"Recording {clock(recorder.seconds)} of at most {clock(LONGEST_SECONDS)}."
     if recorder.phase is RecorderPhase.PACKING:
-        return f"Packing {_clock(recorder.seconds)} into one file…"
+        return f"Packing {clock(recorder.seconds)} into one file…"
     if recorder.problem:
         return f"The replay could not be made: {recorder.problem}"
     if recorder.size:
-        length, size = _clock(recorder.seconds), recorder.size / 1e6
-        return f"{FILE_NAME}: {length}, {size:.1f} MB."
-    return f"Up to {_clock(LONGEST_SECONDS)} minutes, as one HTML file that plays in any browser."
-
-
-def _clock(seconds: float) -> str:
-    return "{}:{:02d}".format(*divmod(int(seconds), 60))
+        length, size = clock(recorder.seconds), recorder.size / 1e6
+        return f"{recorder.file_name}: {length}, {size:.1f} MB."
+    return f"Up to {clock(LONGEST_SECONDS)} minutes, as one HTML file that plays in any browser."

@@ -10,9 +10,10 @@ import viser
 
 from geswarm.sim import load_scenario, scenario_names
 
+from ..scene.detail import Detail, DetailKeeper
 from ..state.keys import KEYS, Key
 from ..state.plan import LARGEST_SEED
-from ..state.playback import SPEEDS
+from ..state.playback import SPEEDS, clock
 from ..state.session import Command, Session
 from .widgets import Mirror
 
@@ -31,8 +32,10 @@ class SwarmHandles:
 
     score: viser.GuiHtmlHandle
     play: viser.GuiButtonHandle
+    back: viser.GuiButtonHandle
     speed: viser.GuiButtonGroupHandle
     scenario: viser.GuiDropdownHandle[str]
+    seed: viser.GuiNumberHandle[int]
     compare: viser.GuiDropdownHandle[str]
 
 
@@ -41,8 +44,9 @@ class SwarmPanel:
 
     handles: SwarmHandles
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, keeper: DetailKeeper) -> None:
         self.session = session
+        self.keeper = keeper
         self._mirror = Mirror()
         self._score = ""
 
@@ -64,6 +68,13 @@ class SwarmPanel:
         run.on_click(
             lambda event: post(lambda s: s.step() if event.target.value == _STEP else s.reset())
         )
+        back = gui.add_button(
+            "",
+            icon=viser.Icon.ARROW_BACK_UP,
+            hint="The run before, exactly as it was; this one is kept, too",
+            visible=False,
+        )
+        back.on_click(lambda _: post(lambda s: s.take_back_reset()))
         speeds = {speed_label(speed): speed for speed in SPEEDS}
         speed = gui.add_button_group(
             "Speed", tuple(speeds), hint="Simulated seconds per second; F: max, or back to 1x"
@@ -77,7 +88,7 @@ class SwarmPanel:
         def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
             name = event.target.value
             chosen = given if name == given.name else load_scenario(name)
-            post(lambda s: s.set_scenario(chosen) if s.scenario != chosen else None)
+            post(lambda s: s.set_scenario(chosen) if s.loaded != chosen else None)
 
         seed = gui.add_number("Seed", session.world.seed, min=0, max=LARGEST_SEED, step=1)
 
@@ -99,18 +110,23 @@ class SwarmPanel:
 
         for key, label, command in KEYS:
             add_key(gui, session, key, label, command)
-        self.handles = SwarmHandles(score, play, speed, scenario, compare)
+        self.handles = SwarmHandles(score, play, back, speed, scenario, seed, compare)
 
     def sync(self) -> None:
         """Show the session as it is."""
         session, handles = self.session, self.handles
-        score = score_html(session)
+        score = score_html(session) + detail_html(self.keeper)
         if score != self._score:
             self._score = handles.score.content = score
         playing = session.playback.playing
         if handles.play.label != (_PAUSE if playing else _PLAY):
             handles.play.label = _PAUSE if playing else _PLAY
             handles.play.icon = viser.Icon.PLAYER_PAUSE if playing else viser.Icon.PLAYER_PLAY
+        run = session.past.latest
+        handles.back.visible = run is not None
+        if run is not None:
+            handles.back.label = f"Back to {clock(run.time)} of the run before"
+        self._mirror.show(handles.seed, session.world.seed)
         handles.speed.label = f"Speed {speed_label(session.playback.speed)}"
         if session.loaded.name in handles.scenario.options:
             self._mirror.show(handles.scenario, session.loaded.name)
@@ -132,17 +148,28 @@ def compare_with(session: Session, name: str | None) -> None:
         session.compare_with(name)
 
 
+def detail_html(keeper: DetailKeeper) -> str:
+    """A word on robots that are drawn coarser than usual, as HTML; empty if they are not."""
+    if keeper.frame is None or not keeper.coarser_than_usual:
+        return ""
+    drawn = "points" if keeper.detail is Detail.POINTS else "simple shapes"
+    return (
+        '<div style="padding:.1em .9em .5em;font-size:.85em;line-height:1.35">'
+        f"<b>Robots are drawn as {drawn}</b>: a browser that looks on is slow "
+        f"({1 / keeper.frame:.1f} frames per second). The simulation is the same.</div>"
+    )
+
+
 def score_html(session: Session) -> str:
     """Clock and score of the run, as HTML; of both runs if two are compared."""
     world = session.world
-    minutes, seconds = divmod(int(world.time), 60)
     figures = [("collected", f"{world.collected}"), ("lost", f"{world.lost}")]
     if session.rival is not None:
         figures = [
             ("these rules", f"{world.collected}"),
             (session.rival.name, f"{session.rival.swarm.world.collected}"),
         ]
-    figures.append(("time", f"{minutes}:{seconds:02d}"))
+    figures.append(("time", clock(world.time)))
     cells = "".join(
         '<div style="flex:1"><div style="font-size:1.5em;font-weight:600;line-height:1.1;'
         f'font-variant-numeric:tabular-nums">{escape(value)}</div>'

@@ -14,12 +14,11 @@ from geswarm.sim import Scenario
 from .. import palette
 from ..palette import Colour
 from ..state.view import ArenaView, Kind
-from .footbot import distant_footbot, footbot, puck, yaw_quaternions
+from .detail import MOST_IN_FULL, Detail
+from .footbot import distant_footbot, distant_puck, footbot, puck, yaw_quaternions
+from .points import Points
 from .scenery import draw_scenery
 from .shapes import Mesh
-
-MOST_IN_DETAIL = 1000
-"""Robots that are drawn with all their parts; larger swarms are drawn from simpler ones."""
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)
@@ -51,11 +50,24 @@ class RobotHandles:
 
 @dataclass
 class ArenaHandles:
-    """What is on the screen; None for robots or objects that there are none of."""
+    """What is on the screen; None for robots or objects that there are none of.
+
+    Attributes:
+        detail: How robots and objects are drawn: as points, or else as one batch per part.
+    """
 
     root: viser.FrameHandle
+    detail: Detail = Detail.FULL
     robots: RobotHandles | None = None
     objects: viser.BatchedMeshHandle | None = None
+    points: Points | None = None
+
+    def clear(self) -> None:
+        """Take robots and objects from the screen."""
+        for part in (self.robots, self.objects, self.points):
+            if part is not None:
+                part.remove()
+        self.robots = self.objects = self.points = None
 
 
 OnMade: TypeAlias = Callable[[Kind, tuple[viser.BatchedMeshHandle, ...]], None]
@@ -88,7 +100,7 @@ class Arena:
             at: Where the centre of the arena is in the scene, metres.
         """
         self.remove()
-        self._scene = scene
+        self._scene, self._extent = scene, max(scenario.width, scenario.length)
         self.handles = ArenaHandles(
             scene.add_frame(self.root, show_axes=False, position=(*at, 0.0))
         )
@@ -100,19 +112,34 @@ class Arena:
             self.handles.root.remove()
             self.handles = None
 
-    def sync(self, view: ArenaView) -> None:
-        """Show a view: assigns to the batches, and makes new ones only if counts have changed."""
-        if self.handles is None:
+    def sync(self, view: ArenaView, detail: Detail | None = None) -> None:
+        """Show a view: assigns to what is there; made anew only for other counts or details.
+
+        Args:
+            view: Robots and objects.
+            detail: How finely to draw them; None as finely as suits so many.
+        """
+        if (handles := self.handles) is None:
             raise RuntimeError("Arena.sync: expected build() to be called before")
-        self._sync_robots(self.handles, view)
-        self._sync_objects(self.handles, view)
+        if detail is None:
+            detail = Detail.FULL if len(view.x) <= MOST_IN_FULL else Detail.SIMPLE
+        if detail is not handles.detail:
+            handles.clear()
+            handles.detail = detail
+        if detail is Detail.POINTS:
+            if handles.points is None:
+                handles.points = Points(self._scene, self.root, self._extent)
+            handles.points.sync(view)
+            return
+        self._sync_robots(handles, view)
+        self._sync_objects(handles, view)
 
     def _sync_robots(self, handles: ArenaHandles, view: ArenaView) -> None:
         count = len(view.x)
         if handles.robots is None or len(handles.robots.bodies.batched_positions) != count:
             if handles.robots is not None:
                 handles.robots.remove()
-            handles.robots = self._new_robots(count) if count else None
+            handles.robots = self._new_robots(count, handles.detail) if count else None
         robots = handles.robots
         if robots is None:
             return
@@ -132,7 +159,8 @@ class Arena:
         if handles.objects is None or len(handles.objects.batched_positions) != count:
             if handles.objects is not None:
                 handles.objects.remove()
-            new = self._batch("objects", puck(), count, palette.OBJECT) if count else None
+            mesh = puck() if handles.detail is Detail.FULL else distant_puck()
+            new = self._batch("objects", mesh, count, palette.OBJECT) if count else None
             handles.objects = new
             if new is not None:
                 self._tell("object", (new,))
@@ -141,8 +169,8 @@ class Arena:
             positions[:, :2] = view.objects
             handles.objects.batched_positions = positions
 
-    def _new_robots(self, count: int) -> RobotHandles:
-        look = footbot() if count <= MOST_IN_DETAIL else distant_footbot()
+    def _new_robots(self, count: int, detail: Detail) -> RobotHandles:
+        look = footbot() if detail is Detail.FULL else distant_footbot()
         robots = RobotHandles(
             shadows=self._batch("shadows", look.shadow, count, (10, 12, 18), opacity=0.4),
             glows=self._batch("glows", look.glow, count, _TRIM, opacity=0.13),

@@ -88,6 +88,12 @@ def puck() -> Mesh:
     return lathe(((r, 0.0), (r, h - bevel), (r - bevel, h), (0.0, h)), 16)
 
 
+def distant_puck() -> Mesh:
+    """The same in a sixth of the triangles."""
+    r, h = OBJECT_RADIUS, OBJECT_HEIGHT
+    return lathe(((r, 0.0), (r, h), (0.0, h)), 5)
+
+
 def _body() -> Mesh:
     base = lathe(((0.066, 0.012), (0.078, 0.030), (0.078, _RING_LOW)), 20)
     deck = lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 20)

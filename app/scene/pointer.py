@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -9,16 +10,18 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from ..state.view import Kind
+from ..state.view import ArenaView, Kind
+from .footbot import HEIGHT
 
 if TYPE_CHECKING:
-    from ..state.session import Command
+    from ..state.session import Command, Session
 
 Vector: TypeAlias = npt.ArrayLike
 DragEvent: TypeAlias = viser.SceneNodeDragEvent[viser.BatchedMeshHandle]
 ClickEvent: TypeAlias = viser.SceneNodePointerEvent[viser.BatchedMeshHandle]
 
 
+_NEAR = 0.02  # of the way from the eye to the ground: so near to a point, a click is meant for it
 _SAME_RAY = 0.005  # rad between two events of one click: viser rounds one of them to pixels
 
 
@@ -41,10 +44,22 @@ def on_level(eye: Vector, through: Vector, level: float) -> tuple[float, float] 
     return float(x), float(y)
 
 
+def nearest(view: ArenaView, place: tuple[float, float], within: float) -> int | None:
+    """The robot nearest to a place, if one is within a distance, metres."""
+    gaps = np.hypot(view.x - place[0], view.y - place[1])
+    robot = int(np.argmin(gaps))
+    return robot if gaps[robot] <= within else None
+
+
 class Pointer:
-    """Posts what the mouse does. viser keeps only asynchronous handlers in order."""
+    """Posts what the mouse does. viser keeps only asynchronous handlers in order.
+
+    Attributes:
+        points_only: Robots are drawn as points, which viser does not tell from the ground.
+    """
 
     def __init__(self, post: Callable[[Command], None]) -> None:
+        self.points_only = False
         self._post = post
         self._rays: dict[int, Vector] = {}  # way of the last click on a robot, by client
         self._grips: dict[int, tuple[float, float, float]] = {}
@@ -68,9 +83,24 @@ class Pointer:
 
     async def _clicked_anywhere(self, event: viser.SceneClickEvent) -> None:
         """The click on a robot comes again as a click on the scene, along the same ray."""
+        if self.points_only:
+            self._clicked_points(np.asarray(event.ray_origin), np.asarray(event.ray_direction))
+            return
         robot = self._rays.pop(event.client_id, None)
         if robot is None or np.abs(np.subtract(robot, event.ray_direction)).max() > _SAME_RAY:
             self._post(lambda session: session.deselect())
+
+    def _clicked_points(
+        self, eye: npt.NDArray[np.float64], direction: npt.NDArray[np.float64]
+    ) -> None:
+        place = on_level(eye, eye + direction, HEIGHT)
+        near = 0.0 if place is None else _NEAR * math.hypot(*(eye[:2] - place), eye[2])
+
+        def select(session: Session) -> None:
+            robot = None if place is None else nearest(session.view(), place, near)
+            session.deselect() if robot is None else session.select(robot)
+
+        self._post(select)
 
     async def _drag_robot(self, event: DragEvent) -> None:
         self._drag("robot", event)

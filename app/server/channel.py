@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import json
 import logging
+import time
 from collections.abc import Callable
 from itertools import count
 from typing import Any, TypeAlias
@@ -16,6 +17,11 @@ from websockets.exceptions import ConnectionClosed
 Message: TypeAlias = dict[str, Any]
 
 MAX_MESSAGE_BYTES = 256 * 1024
+FRAME_TIME = "frame_time"
+"""Type of the message with which pages tell how fast their browser draws, every few seconds."""
+
+_SILENCE = 6.0  # s for which a page may say nothing
+_LONGEST_FRAME = 3600.0
 MAX_WAITING = 256
 """Messages that may wait for one page. One further behind is cut off: it connects again by itself
 and is then sent everything afresh."""
@@ -34,12 +40,14 @@ class Client:
         number: Counts from 1 over the life of the channel.
         name: What the others are told who this is.
         welcome: Whether broadcasts go to it; see `Channel.welcome`.
+        frame: Seconds per frame of its browser, and when it told; None if it is not looked at.
     """
 
     def __init__(self, number: int, connection: ServerConnection) -> None:
         self.number = number
         self.name = f"Browser {number}"
         self.welcome = False
+        self.frame: tuple[float, float] | None = None
         self._connection = connection
         self._waiting: dict[object, str] = {}
         self._filled = asyncio.Event()
@@ -89,6 +97,15 @@ class Channel:
         """The pages connected now."""
         return tuple(self._clients.values())
 
+    def slowest_frame(self) -> float | None:
+        """Seconds per frame of the slowest browser that is looked at; None if there is none.
+
+        One that has fallen silent is taken to be busy with a frame.
+        """
+        now = time.monotonic()
+        told = [client.frame for client in self.clients if client.frame is not None]
+        return max((max(frame, now - when - _SILENCE) for frame, when in told), default=None)
+
     def send(self, client: Client, message: Message, *, live: bool = False) -> None:
         """Queue a message for one page; from any thread.
 
@@ -136,7 +153,10 @@ class Channel:
                 except MessageError as error:
                     self.send(client, _error(str(error)))
                 else:
-                    self._call(client, self.on_message, client, message)
+                    if message.get("type") == FRAME_TIME:
+                        client.frame = frame_told(message)
+                    else:
+                        self._call(client, self.on_message, client, message)
         except ConnectionClosed:
             pass
         finally:
@@ -150,6 +170,14 @@ class Channel:
         except Exception:
             logger.exception("a message of a rule-table page could not be handled")
             self.send(client, _error("this failed inside the app; its terminal shows why"))
+
+
+def frame_told(message: Message) -> tuple[float, float] | None:
+    """What a page says of the frames of its browser, as `Client.frame` holds it."""
+    told = message.get("milliseconds")
+    if isinstance(told, bool) or not isinstance(told, int | float):
+        return None
+    return min(max(told / 1000.0, 0.0), _LONGEST_FRAME), time.monotonic()
 
 
 def parse_message(raw: str | bytes) -> Message:

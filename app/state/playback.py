@@ -10,6 +10,11 @@ SPEEDS = (1.0, 5.0, 10.0, 50.0, math.inf)
 _LONGEST_FRAME = 0.25  # s: after a hang the swarm goes on, it does not catch up
 
 
+def clock(seconds: float) -> str:
+    """A time in minutes and seconds: `85:12`."""
+    return "{}:{:02d}".format(*divmod(int(seconds), 60))
+
+
 class Playback:
     """Decides how many control steps each frame of the display makes.
 

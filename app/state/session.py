@@ -13,17 +13,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
-from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World
+from geswarm.rules import RuleSet
+from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on
 
 from .campaigns import Campaigns
 from .comparison import Comparison
 from .document import RuleDocument, bare_rules
 from .evolution import EvolutionThread
 from .insight import InsightFinder
-from .journal import Journal, Unsaved
+from .journal import Journal
+from .past_runs import ArenaRun, PastRuns
 from .playback import Playback
 from .rival import BEFORE, Rival, rivals_offered
+from .rule_commands import RuleCommands
 from .runs import Runs
 from .states import MachineDrawer
 from .swarm import Swarm
@@ -45,7 +47,7 @@ class Held:
     y: float
 
 
-class Session:
+class Session(RuleCommands):
     """The state that every panel shows.
 
     Attributes:
@@ -57,6 +59,7 @@ class Session:
         world: The swarm.
         rival: The swarm beside it, if there is one.
         trace: Where the robots have been.
+        past: The runs before, which can be gone back to.
         playback: Play, pause, speed.
         evolution: The background evolution.
         runs: Its runs: the next, the present and those that are kept.
@@ -88,6 +91,7 @@ class Session:
         self.world = World(scenario, rule_set, seed)
         self.rival: Rival | None = None
         self.trace = Trace(scenario, self.world.state)
+        self.past = PastRuns()
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
         self.runs = Runs(evolution, rule_set)
@@ -190,7 +194,29 @@ class Session:
         self.playback.restart()
 
     def reset(self, seed: int | None = None) -> None:
-        """Start the run again, with another seed if one is given."""
+        """Start the run again, with another seed if one is given; `take_back_reset` undoes it."""
+        self.past.keep(self._run())
+        self._begin(seed)
+
+    def take_back_reset(self) -> None:
+        """Go on with the run before, as it was; the rules stay. Again: with the one before that."""
+        if self.past.latest is None:
+            return
+        run = self.past.exchange(self._run())
+        same_scenario = run.scenario == self.scenario
+        self.loaded, self.scenario, self.rival = run.loaded, run.scenario, run.rival
+        self._swarm, self.world, self.trace = run.swarm, run.swarm.world, run.trace
+        if bare_rules(self.document.rule_set) != bare_rules(self.world.rule_set):
+            self.world.set_rules(self.document.rule_set)
+        self.held = None
+        self._jump()
+        if not same_scenario:
+            self._scenario_changed()
+
+    def _run(self) -> ArenaRun:
+        return ArenaRun(self.loaded, self.scenario, self._swarm, self.rival, self.trace)
+
+    def _begin(self, seed: int | None) -> None:
         self.world.reset(seed)
         if self.rival is not None:
             self.rival.swarm.world.set_rules(self._rules_of(self.rival))
@@ -205,8 +231,7 @@ class Session:
 
     def set_scenario(self, scenario: Scenario) -> None:
         """Move the swarm to another scenario; the rules stay."""
-        self.loaded = scenario
-        self._take_scenario(scenario)
+        self._take_scenario(scenario, loaded=scenario)
 
     def change_scenario(self, **changes: Any) -> None:
         """Change values of the scenario, at once where the run can go on, else with a reset.
@@ -224,17 +249,23 @@ class Session:
         """Take back all changes of the scenario since it was loaded."""
         self._take_scenario(self.loaded)
 
-    def _take_scenario(self, scenario: Scenario) -> None:
+    def _take_scenario(self, scenario: Scenario, loaded: Scenario | None = None) -> None:
         self.scenario_problem = ""
+        if scenario != self.scenario and not can_go_on(self.scenario, scenario):
+            self.past.keep(self._run())
+        self.loaded = loaded or self.loaded
         if scenario == self.scenario:
             return
         self.scenario = self.trace.scenario = scenario
-        self.scenario_version += 1
         goes_on = [swarm.world.set_scenario(scenario) for swarm in self._swarms]
         if not all(goes_on):
-            if self.selected is not None and self.selected >= scenario.robots:
-                self.deselect()
             self._restarted()
+        self._scenario_changed()
+
+    def _scenario_changed(self) -> None:
+        self.scenario_version += 1
+        if self.selected is not None and self.selected >= self.scenario.robots:
+            self.deselect()
         self._judge()
 
     # --- commands: side by side ---------------------------------------------------------------
@@ -253,8 +284,9 @@ class Session:
             self.rival = None
             return
         rule_set = rivals_offered(self.document, self.runs)[name]
+        self.past.keep(self._run())
         self.rival = Rival(name, Swarm(World(self.scenario, rule_set, self.world.seed)))
-        self.reset()
+        self._begin(None)
 
     def _rules_of(self, rival: Rival) -> RuleSet:
         """The rules that the rival's name stands for now; its old ones if there are none."""
@@ -294,77 +326,7 @@ class Session:
         if (held := self.held) is not None:
             self._swarm.place(held.kind, held.index, held.x, held.y)
 
-    # --- commands: rules ----------------------------------------------------------------------
-
-    def edit(self, edit: dict[str, Any]) -> None:
-        """Change the rules; the swarm follows them from its next step on.
-
-        Raises:
-            EditError: The edit cannot be made; nothing has changed.
-        """
-        self.document.edit(edit)
-        self._follow_document()
-
-    def undo(self) -> None:
-        """Take the last change of the rules back."""
-        self.document.undo()
-        self._follow_document()
-
-    def redo(self) -> None:
-        """Make the last change taken back again."""
-        self.document.redo()
-        self._follow_document()
-
-    def load(self, rule_set: RuleSet) -> None:
-        """Put another rule set in the table and in the swarm; undo brings the old one back."""
-        self.document.load(rule_set)
-        self._follow_document()
-
-    def load_preset(self, name: str) -> None:
-        """Load a preset.
-
-        Raises:
-            RuleSetError: There is none of that name.
-        """
-        self.load(load_preset(name))
-
-    def load_text(self, text: str, source: str) -> None:
-        """Load YAML or the rule language.
-
-        Raises:
-            RuleSetError: It cannot be read; nothing has changed.
-        """
-        self.load(read_rule_set(text, source))
-
-    def set_text(self, text: str) -> None:
-        """Change the rules to what was typed in the rule language.
-
-        Raises:
-            RuleSetError: It cannot be read; nothing has changed.
-        """
-        self.document.replace(read_rule_set(text))
-        self._follow_document()
-
-    def saved(self) -> None:
-        """Somebody has the rules in a file."""
-        self.document.saved = self.document.rule_set
-        self.journal.keep(self.document.unsaved)
-
-    def bring_back(self, unsaved: Unsaved) -> None:
-        """Put rules that a killed dashboard left in place; undo takes them out again."""
-        self.document.replace(unsaved.rule_set)
-        self.journal.settle(unsaved, self.document.unsaved)
-        self._follow_document()
-
-    def simplify(self) -> None:
-        """Put the shortest rules with exactly the same behaviour in place."""
-        self.document.replace(simplify(self.document.rule_set).rule_set)
-        self._follow_document()
-
-    def weigh_pieces(self) -> None:
-        """Begin to find out what each piece of the rules is worth."""
-        document = self.document
-        self.worth.ask(WorthQuestion(document.version, document.rule_set, self.scenario))
+    # --- following the rules -------------------------------------------------------------------
 
     def _follow_document(self) -> None:
         document = self.document
@@ -378,6 +340,11 @@ class Session:
         if self.rival is not None and self.rival.name == BEFORE:
             self.rival.swarm.world.set_rules(self._rules_of(self.rival))
         self._judge()
+
+    def weigh_pieces(self) -> None:
+        """Begin to find out what each piece of the rules is worth."""
+        document = self.document
+        self.worth.ask(WorthQuestion(document.version, document.rule_set, self.scenario))
 
     def _judge(self) -> None:
         document = self.document

@@ -39,7 +39,7 @@ from geswarm.sim.scenario import (
     scenario_names,
 )
 from geswarm.sim.startup import is_compiled, warm_up
-from geswarm.sim.world import NEEDS_RESET, World, WorldState
+from geswarm.sim.world import NEEDS_RESET, World, WorldState, can_go_on
 
 __all__ = [
     "CONTROL_STEP",
@@ -53,6 +53,7 @@ __all__ = [
     "World",
     "WorldState",
     "available_cores",
+    "can_go_on",
     "evaluate",
     "is_compiled",
     "load_scenario",

@@ -19,6 +19,7 @@ from geswarm.sim.compiled import fill_slots
 from geswarm.sim.kernels.state import ACTION, BEHAVIOURS, ROBOT, RULE, SLOT, Physics
 from geswarm.sim.kernels.table import MEMORIES
 from geswarm.sim.scenario import Scenario
+from geswarm.sim.scenario_checks import objects_from_walls
 
 Records: TypeAlias = npt.NDArray[np.void]
 
@@ -37,7 +38,7 @@ def encode_scenario(scenario: Scenario) -> Physics:
         light_y=half_length + scenario.light,
         zone_miss=scenario.zone_miss,
         grip_reach=scenario.grip_reach,
-        object_margin=scenario.object_margin,
+        object_margin=objects_from_walls(scenario.object_margin, scenario.grip_reach),
         walk_min=scenario.random_walk[0],
         walk_max=scenario.random_walk[1],
         max_speed=scenario.max_speed,

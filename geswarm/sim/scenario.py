@@ -33,7 +33,7 @@ class Scenario:
         light: Distance of the light from the north wall, northwards (m).
         zone_miss: Probability that a robot perceives neither zone in a control step.
         grip_reach: Distance from the robot's centre within which it can grip an object (m).
-        object_margin: Objects do not appear nearer to a wall than this (m).
+        object_margin: Objects do not appear nearer to a wall than this, nor out of reach (m).
         random_walk: Shortest and longest time for which a random heading is kept (s).
         max_speed: Highest speed of a wheel (m/s).
         turn_gain: Turning speed per angle to the target (1/s).

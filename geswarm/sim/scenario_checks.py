@@ -108,7 +108,8 @@ def _pair_problem(parameter: Parameter, value: object) -> str | None:
 def _misfits(values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
     """What does not fit together, each number being right by itself."""
     width, length = values["width"], values["length"]
-    nest, source, margin = values["nest"], values["source"], values["object_margin"]
+    nest, source = values["nest"], values["source"]
+    margin = objects_from_walls(values["object_margin"], values["grip_reach"])
     for zone, depth in (("nest", nest), ("source", source)):
         if depth > length:
             yield (zone, "length"), f"{depth} m deep, but the arena is {length} m long"
@@ -116,16 +117,23 @@ def _misfits(values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]
         message = f"nest and source overlap: {nest} m + {source} m > arena length {length} m"
         yield ("source", "nest", "length"), message
     if margin >= source or 2 * margin >= width:
-        message = f"a margin of {margin} m leaves no room for objects in the source"
-        yield ("object_margin", "source", "width"), message
+        needed = margin > values["object_margin"]
+        reason = ", without which none reaches a corner," if needed else ""
+        message = f"a margin of {margin:g} m{reason} leaves no room for objects in the source"
+        yield ("object_margin", "source", "width", "grip_reach"), message
     room = robots_in_nest(width, length, nest)
     if nest <= length and values["robots"] > room:
         message = f"{values['robots']} do not fit in the nest, which has room for {room}"
         yield ("robots", "nest", "width", "length"), message
 
 
+def objects_from_walls(margin: float, grip_reach: float) -> float:
+    """Least distance of objects from the walls: the margin, or where robots reach into corners."""
+    return max(margin, footbot.RADIUS - grip_reach / math.sqrt(2.0))
+
+
 def robots_in_nest(width: float, length: float, nest: float) -> int:
-    """How many robots fit side by side with their centres in the nest."""
+    """How many robots fit side by side with their centres in the nest; so many can start there."""
     diameter = 2.0 * footbot.RADIUS
     depth = min(nest, length - footbot.RADIUS) - footbot.RADIUS
     if depth < 0.0:

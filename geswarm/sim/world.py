@@ -13,11 +13,17 @@ from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING
 from geswarm.sim.compiled import run_world, start_world
 from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
-from geswarm.sim.kernels.state import COLLECTED, LOST, PICKED
+from geswarm.sim.kernels.state import COLLECTED, HAS_OBJECT, LOST, ON_NEST, ON_SOURCE, PICKED
 from geswarm.sim.scenario import Scenario
 
 NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")
 """Parameters of a scenario that a run cannot go on with if they change."""
+
+
+def can_go_on(before: Scenario, after: Scenario) -> bool:
+    """Whether a run in one scenario can go on in another one."""
+    return all(getattr(before, name) == getattr(after, name) for name in NEEDS_RESET)
+
 
 _SPACE = Space.of(FORAGING)
 
@@ -34,7 +40,8 @@ class WorldState:
         theta: Orientations, counter-clockwise from east (rad), in [-pi, pi], float64.
         behaviour: Behaviour codes, uint8.
         internal_states: Internal states as bits, uint8.
-        percepts: Percepts of the last control step as bits, uint8.
+        percepts: Percepts of the last control step as bits, uint8; of a robot that has been put
+            somewhere since, what there is to perceive there.
         carried: Whether the robot holds an object, bool.
         last_rule: Index of the rule that fired last, -1 if none has since the rules were set.
         objects: Positions of the objects (m), float64, shape (objects, 2).
@@ -205,9 +212,7 @@ class World:
         Returns:
             True if the run goes on.
         """
-        goes_on = all(
-            getattr(scenario, name) == getattr(self._scenario, name) for name in NEEDS_RESET
-        )
+        goes_on = can_go_on(self._scenario, scenario)
         self._scenario = scenario
         self._physics = encode_scenario(scenario)
         room = room_for(scenario)
@@ -239,6 +244,7 @@ class World:
         self._actions["fired"] = 0
         self._decisions[:] = 0
         start_world(self._physics, *self._room[:4], seed, 0, 0)
+        self._show_percepts(slice(None))
 
     def move_robot(self, i: int, x: float, y: float) -> None:
         """Put robot i at (x, y) (m), or at the nearest place inside the walls.
@@ -255,6 +261,7 @@ class World:
         robot = self._robots[i]
         robot["x"] = min(max(x, -reach_x), reach_x)
         robot["y"] = min(max(y, -reach_y), reach_y)
+        self._show_percepts(slice(i, i + 1))
 
     def move_object(self, i: int, x: float, y: float) -> None:
         """Put object i at (x, y) (m), or at the nearest place where objects may lie in the source.
@@ -268,6 +275,16 @@ class World:
         north = self._physics.half_length - self._physics.object_margin
         self._objects[i, 0] = min(max(x, -reach_x), reach_x)
         self._objects[i, 1] = min(max(y, self._physics.source_edge), north)
+
+    def _show_percepts(self, which: slice) -> None:
+        """What robots perceive where they have just been put, should they notice the zones.
+
+        For the eye only: they sense for themselves at the beginning of the next step.
+        """
+        robots, physics = self._robots[which], self._physics
+        in_source = np.where(robots["y"] > physics.source_edge, ON_SOURCE, 0)
+        zones = np.where(robots["y"] < physics.nest_edge, ON_NEST, in_source)
+        robots["percepts"] = zones | np.where(robots["carried"], HAS_OBJECT, 0)
 
 
 def _frozen(array: np.ndarray[tuple[int, ...], np.dtype[np.generic]]) -> np.ndarray:

@@ -1,5 +1,6 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
+import { tellFrames } from "../common/frames.js";
 import { Notices } from "../common/notices.js";
 import { Socket, socketAddress } from "../common/socket.js";
 import { Tabs } from "../common/tabs.js";
@@ -85,6 +86,7 @@ const socket = new Socket(socketAddress(), {
   refused: (why) => notices.refused(why),
   message: (message) => handlers[message.type]?.(message),
 });
+tellFrames(socket);
 
 /** The rules of an individual stand beside those tabs where one can be clicked. */
 function inTab(id) {

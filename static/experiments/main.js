@@ -1,6 +1,7 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
 import { h } from "../common/dom.js";
+import { tellFrames } from "../common/frames.js";
 import { Notices } from "../common/notices.js";
 import { Socket, socketAddress } from "../common/socket.js";
 import { Tabs } from "../common/tabs.js";
@@ -60,6 +61,7 @@ const socket = new Socket(socketAddress(), {
   refused: (why) => notices.refused(why),
   message: (message) => handlers[message.type]?.(message),
 });
+tellFrames(socket);
 
 /** A page in a tab of the dashboard that is not in view has no size. */
 setInterval(() => {

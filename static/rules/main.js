@@ -1,6 +1,7 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
 import { h } from "../common/dom.js";
+import { tellFrames } from "../common/frames.js";
 import { Notices } from "../common/notices.js";
 import { Socket, socketAddress } from "../common/socket.js";
 import { tabStore } from "../common/store.js";
@@ -131,6 +132,7 @@ const socket = new Socket(socketAddress(), {
   refused: (why) => notices.refused(why),
   message: (message) => handlers[message.type]?.(message),
 });
+tellFrames(socket);
 
 /** What was typed meanwhile was typed for the rules as they were: it is offered, and not applied. */
 function comeBack() {

@@ -12,6 +12,7 @@ from geswarm.app.panels.scenario_panel import VALUES
 from geswarm.app.panels.show_panel import ShowPanel
 from geswarm.app.scene.overlays import heat_map
 from geswarm.app.scene.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
+from geswarm.app.scene.replay import Setting
 from geswarm.app.scene.stage import beside
 from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
@@ -19,6 +20,7 @@ from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.sim import NEEDS_RESET, World, load_scenario
 
 PAPER = load_scenario("paper")
+SETTING = Setting(PAPER, False, 0, (("EVO 8", load_preset("evo8")),))
 
 
 @pytest.mark.parametrize(
@@ -83,6 +85,7 @@ def test_a_recording_becomes_one_html_file(server):
     recorder.sync(1.0)
     assert (recorder.phase, recorder.seconds) == (RecorderPhase.IDLE, 0.0)
     recorder.start(server, client)
+    recorder.note(SETTING, 0.0)
     for x in range(30):
         ball.position = (x, 0.0, 0.0)
         recorder.sync(1 / 30)
@@ -100,6 +103,7 @@ def test_a_recording_becomes_one_html_file(server):
 def test_a_recording_that_fails_is_told(server, monkeypatch):
     recorder = Recorder()
     recorder.start(server, None)
+    recorder.note(SETTING, 0.0)
     monkeypatch.setattr(viser.infra.StateSerializer, "as_html", lambda self: 1 / 0)
     recorder.stop()
     recorder.join()

@@ -66,28 +66,51 @@ class Oracle:
         self.robots = [
             Robot(make_key(seed, individual, replicate, i)) for i in range(scenario.robots)
         ]
-        for i, robot in enumerate(self.robots):
-            self.start(robot, self.robots[:i])
+        if not self.scatter():
+            self.fill_cells()
+        for robot in self.robots:
+            robot.theta = 2 * math.pi * draw(robot.key, 0, START_HEADING)
+            self.restart_walk(robot, 0, START_WALK, START_WALK_TIME)
         arena = make_key(seed, individual, replicate, scenario.robots)
         self.objects = [
             self.object_place(draw(arena, o, START_OBJECT_X), draw(arena, o, START_OBJECT_Y))
             for o in range(scenario.objects)
         ]
 
-    def start(self, robot, others):
-        reach = self.east - RADIUS
+    def start_band(self):
         south = self.south + RADIUS
-        north = min(self.south + self.scenario.nest, self.north - RADIUS)
-        for attempt in range(200):
-            robot.x = reach * (2 * draw(robot.key, attempt, START_X) - 1)
-            robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
-            if all(distance(robot, other) >= 2 * RADIUS for other in others):
-                break
-        robot.theta = 2 * math.pi * draw(robot.key, 0, START_HEADING)
-        self.restart_walk(robot, 0, START_WALK, START_WALK_TIME)
+        return south, min(self.south + self.scenario.nest, self.north - RADIUS)
+
+    def scatter(self):
+        reach = self.east - RADIUS
+        south, north = self.start_band()
+        for i, robot in enumerate(self.robots):
+            for attempt in range(200):
+                robot.x = reach * (2 * draw(robot.key, attempt, START_X) - 1)
+                robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
+                if all(distance(robot, other) >= 2 * RADIUS for other in self.robots[:i]):
+                    break
+            else:
+                return False
+        return True
+
+    def fill_cells(self):
+        south, north = self.start_band()
+        widest = int(self.scenario.width / (2 * RADIUS) + 1e-9)
+        rows = math.ceil(len(self.robots) / widest)
+        columns = math.ceil(len(self.robots) / rows)
+        width = self.scenario.width / columns
+        depth = (north - south + 2 * RADIUS) / rows
+        for i, robot in enumerate(self.robots):
+            row, column = divmod(i, columns)
+            u, v = (draw(robot.key, 200, purpose) - 0.5 for purpose in (START_X, START_Y))
+            robot.x = self.west + (column + 0.5) * width + (width - 2 * RADIUS) * u
+            robot.y = south - RADIUS + (row + 0.5) * depth + (depth - 2 * RADIUS) * v
 
     def object_place(self, u, v):
-        margin = self.scenario.object_margin
+        # In a corner, a robot's centre is its radius away from both walls.
+        reached = RADIUS - self.scenario.grip_reach / math.sqrt(2)
+        margin = max(self.scenario.object_margin, reached)
         south, north = self.north - self.scenario.source, self.north - margin
         return (self.east - margin) * (2 * u - 1), south + (north - south) * v
 

@@ -43,13 +43,6 @@ def test_start():
     assert (world.time, world.steps, world.picked, world.collected, world.lost) == (0,) * 5
 
 
-def test_start_in_a_nest_that_is_full():
-    scenario = PAPER.with_changes(robots=216)
-    world = World(scenario, EVO8)
-    world.step(20)
-    assert np.isfinite(world.state.x).all()
-
-
 def test_same_seed_same_run():
     one, other, third = (World(PAPER, EVO8, seed) for seed in (1, 1, 2))
     for world in (one, other, third):
@@ -213,3 +206,24 @@ def test_kind_errors():
         World(PAPER, EVO8, -1)
     with pytest.raises(ValueError, match="n: expected at least 0, got -1"):
         World(PAPER, EVO8).step(-1)
+
+
+def test_a_robot_perceives_at_once_where_it_is_put_and_the_run_stays_the_same():
+    world, twin = (World(PAPER, EVO8, 1) for _ in range(2))
+    on_nest, on_source = (1 << FORAGING.precondition_index[n] for n in ("ON_NEST", "ON_SOURCE"))
+    assert world.state.percepts.tolist() == [on_nest] * 4
+    for steps in (0, 1, 897):
+        world.step(steps)
+        twin.step(steps)
+        before = world.state
+        for robot in range(4):
+            held = 4 * before.carried[robot]
+            for y, zone in ((-1.0, on_nest), (-0.3, 0), (1.0, on_source)):
+                world.move_robot(robot, 0.0, y)
+                assert world.state.percepts[robot] == zone + held
+            world.move_robot(robot, before.x[robot], before.y[robot])
+        assert same(before, world.state, but=("percepts",))
+        world.step(1)
+        twin.step(1)
+        assert same(twin.state, world.state)
+    assert before.carried.any()

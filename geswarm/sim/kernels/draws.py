@@ -9,7 +9,7 @@ No two decisions of a robot share a purpose within a step, so no two decisions e
 | WALK_HEADING    | robot | control step  | a fresh heading of the random walk                   |
 | WALK_TIME       | robot | control step  | how long that heading is kept                        |
 | OBJECT_X, _Y    | robot | control step  | where the object that replaces a picked one appears  |
-| START_X, _Y     | robot | attempt       | where a robot starts                                 |
+| START_X, _Y     | robot | attempt       | where a robot starts; the last one: in its cell      |
 | START_HEADING   | robot | 0             | its orientation at the start                         |
 | START_WALK      | robot | 0             | its first random-walk heading                        |
 | START_WALK_TIME | robot | 0             | how long that heading is kept                        |

@@ -21,7 +21,7 @@ from geswarm.sim.kernels.neighbours import enter, is_clear
 from geswarm.sim.kernels.state import RANDOM_WALK, WANT_OBJECT, Physics
 
 PLACEMENT_ATTEMPTS = 200
-"""How often a robot that would overlap another one is placed anew."""
+"""At how many random places a robot may overlap another one before all are placed by cells."""
 
 
 @inlined
@@ -36,10 +36,12 @@ def start(
     replicate: int,
 ) -> None:
     """Robots at random poses in the nest, walking at random; objects at random in the source."""
-    starts[:] = -1
     for i in range(len(robots)):
         robots[i].key = make_key(seed, individual, replicate, i)
-        _start_robot(physics, robots, slots, starts, i)
+    if not _scatter(physics, robots, slots, starts):
+        _fill_cells(physics, robots)
+    for i in range(len(robots)):
+        _begin(physics, robots[i])
     arena_key = make_key(seed, individual, replicate, len(robots))
     for o in range(len(objects)):
         u = draw(arena_key, o, START_OBJECT_X)
@@ -47,18 +49,60 @@ def start(
 
 
 @inlined
-def _start_robot(physics: Physics, robots: Any, slots: Any, starts: Any, i: int) -> None:
-    """Place robot i clear of the walls and, where that is found, of robots 0..i-1."""
-    robot = robots[i]
-    reach_x = physics.half_width - physics.radius
+def _start_band(physics: Physics) -> tuple[float, float]:
+    """Southernmost and northernmost y at which robots start: in the nest, clear of the walls."""
     south = physics.radius - physics.half_length
-    north = min(physics.nest_edge, physics.half_length - physics.radius)
-    for attempt in range(PLACEMENT_ATTEMPTS):
-        robot.x = reach_x * (2.0 * draw(robot.key, attempt, START_X) - 1.0)
-        robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
-        if is_clear(physics, robots, slots, starts, i):
-            break
-    enter(physics, robots, slots, starts, i)
+    return south, min(physics.nest_edge, physics.half_length - physics.radius)
+
+
+@inlined
+def _scatter(physics: Physics, robots: Any, slots: Any, starts: Any) -> bool:
+    """Place all robots at random, clear of each other; False if one finds no place."""
+    starts[:] = -1
+    reach_x = physics.half_width - physics.radius
+    south, north = _start_band(physics)
+    for i in range(len(robots)):
+        robot = robots[i]
+        clear = False
+        for attempt in range(PLACEMENT_ATTEMPTS):
+            robot.x = reach_x * (2.0 * draw(robot.key, attempt, START_X) - 1.0)
+            robot.y = south + (north - south) * draw(robot.key, attempt, START_Y)
+            clear = is_clear(physics, robots, slots, starts, i)
+            if clear:
+                break
+        if not clear:
+            return False
+        enter(physics, robots, slots, starts, i)
+    return True
+
+
+@inlined
+def _fill_cells(physics: Physics, robots: Any) -> None:
+    """Place each robot at random in a cell of its own, at least as wide and deep as a robot.
+
+    There are cells enough: a scenario has no more robots than `robots_in_nest` says.
+    """
+    diameter = 2.0 * physics.radius
+    reach_x = physics.half_width - physics.radius
+    south, north = _start_band(physics)
+    widest = 1 + int((2.0 * physics.half_width - diameter) / diameter)
+    rows = (len(robots) + widest - 1) // widest
+    columns = (len(robots) + rows - 1) // rows
+    width = 2.0 * physics.half_width / columns
+    depth = (north - south + diameter) / rows
+    for i in range(len(robots)):
+        robot = robots[i]
+        u = draw(robot.key, PLACEMENT_ATTEMPTS, START_X) - 0.5
+        v = draw(robot.key, PLACEMENT_ATTEMPTS, START_Y) - 0.5
+        x = width * (i % columns + 0.5) - physics.half_width + (width - diameter) * u
+        y = depth * (i // columns + 0.5) + south - physics.radius + (depth - diameter) * v
+        robot.x = min(max(x, -reach_x), reach_x)  # but for rounding they are there already
+        robot.y = min(max(y, south), north)
+
+
+@inlined
+def _begin(physics: Physics, robot: Any) -> None:
+    """Give a robot that has its place all else that it starts with."""
     theta = 2.0 * math.pi * draw(robot.key, 0, START_HEADING)
     robot.cos = math.cos(theta)
     robot.sin = math.sin(theta)

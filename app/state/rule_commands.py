@@ -1,0 +1,92 @@
+"""The commands with which a session changes its rules."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
+
+from .document import RuleDocument
+from .journal import Journal, Unsaved
+
+
+class RuleCommands(ABC):
+    """Changes the rules being edited.
+
+    Attributes:
+        document: The rules.
+        journal: What of them would be lost in a crash.
+    """
+
+    document: RuleDocument
+    journal: Journal
+
+    @abstractmethod
+    def _follow_document(self) -> None:
+        """Have all else follow the rules as they are now."""
+
+    def edit(self, edit: dict[str, Any]) -> None:
+        """Change the rules; the swarm follows them from its next step on.
+
+        Raises:
+            EditError: The edit cannot be made; nothing has changed.
+        """
+        self.document.edit(edit)
+        self._follow_document()
+
+    def undo(self) -> None:
+        """Take the last change of the rules back."""
+        self.document.undo()
+        self._follow_document()
+
+    def redo(self) -> None:
+        """Make the last change taken back again."""
+        self.document.redo()
+        self._follow_document()
+
+    def load(self, rule_set: RuleSet) -> None:
+        """Put another rule set in the table and in the swarm; undo brings the old one back."""
+        self.document.load(rule_set)
+        self._follow_document()
+
+    def load_preset(self, name: str) -> None:
+        """Load a preset.
+
+        Raises:
+            RuleSetError: There is none of that name.
+        """
+        self.load(load_preset(name))
+
+    def load_text(self, text: str, source: str) -> None:
+        """Load YAML or the rule language.
+
+        Raises:
+            RuleSetError: It cannot be read; nothing has changed.
+        """
+        self.load(read_rule_set(text, source))
+
+    def set_text(self, text: str) -> None:
+        """Change the rules to what was typed in the rule language.
+
+        Raises:
+            RuleSetError: It cannot be read; nothing has changed.
+        """
+        self.document.replace(read_rule_set(text))
+        self._follow_document()
+
+    def saved(self) -> None:
+        """Somebody has the rules in a file."""
+        self.document.saved = self.document.rule_set
+        self.journal.keep(self.document.unsaved)
+
+    def bring_back(self, unsaved: Unsaved) -> None:
+        """Put rules that a killed dashboard left in place; undo takes them out again."""
+        self.document.replace(unsaved.rule_set)
+        self.journal.settle(unsaved, self.document.unsaved)
+        self._follow_document()
+
+    def simplify(self) -> None:
+        """Put the shortest rules with exactly the same behaviour in place."""
+        self.document.replace(simplify(self.document.rule_set).rule_set)
+        self._follow_document()
