@@ -21,7 +21,7 @@ from geswarm.evolution import (
     RunConfig,
     cluster_executor,
 )
-from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
+from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError, fall_in_words
 from geswarm.sim import ScenarioError, load_scenario
 
 from .run_directory import new_run_directory
@@ -32,11 +32,15 @@ _LOG_SECONDS = 10.0
 def evolve_headless(options: argparse.Namespace) -> int:
     """Evolve as the options say; 0 when all generations are done, 130 when stopped before."""
     console = Console(stderr=True)
+
+    def say(text: str) -> None:
+        console.print(text, markup=False, soft_wrap=True)
+
     with ExitStack() as resources:
         try:
             executor = None
             if options.cluster is not None:
-                executor = resources.enter_context(cluster_executor(options.cluster))
+                executor = resources.enter_context(cluster_executor(options.cluster, say))
             run = _open_run(options)
         except (ClusterError, ScenarioError, SettingsError, StoreError) as error:
             raise UsageError(str(error)) from error
@@ -69,7 +73,7 @@ def _evolve_and_report(
 
 def _open_run(options: argparse.Namespace) -> EvolutionRun:
     if options.resume is not None:
-        return EvolutionRun.resume(options.resume)
+        return EvolutionRun.resume(options.resume, options.generations)
     given = {
         name: getattr(options, name)
         for name in ("generations", "population", "evaluations")
@@ -95,6 +99,8 @@ def _evolve(
     console: Console,
 ) -> None:
     settings = run.config.settings
+    for remark in run.remarks:
+        console.print(remark, markup=False, soft_wrap=True)
     console.print(
         f"{run.config.scenario.name}, seed {run.config.seed}: {settings.generations} generations "
         f"of {settings.population}, {settings.evaluations} runs each, in {run.directory}",
@@ -113,8 +119,9 @@ def _evolve(
 
         def show(record: GenerationRecord) -> None:
             rate = 1 / record.seconds if record.seconds else 0.0
+            fall = fall_in_words([one.best_so_far for one in run.history])
             figures = (
-                f"best {record.best_so_far:.1f}, mean {record.mean:.1f}, "
+                f"best {record.best_so_far:.1f}{fall and f' ({fall})'}, mean {record.mean:.1f}, "
                 f"invalid {record.invalid}, {rate:.2g} generations/s,"
             )
             progress.update(task, completed=record.generation, figures=figures)

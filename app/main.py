@@ -17,8 +17,8 @@ from geswarm.cli import (
 )
 
 _DASHBOARD_ONLY = ("host", "port", "allow_host", "rules")
-_SET_BY_THE_RUN = ("scenario", "preset", "generations", "population", "evaluations", "seed", "out")
-_HEADLESS_ONLY = (*_SET_BY_THE_RUN[1:], "resume", "cluster")
+_SET_BY_THE_RUN = ("scenario", "preset", "population", "evaluations", "seed", "out")
+_HEADLESS_ONLY = (*_SET_BY_THE_RUN[1:], "generations", "resume", "cluster")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -67,7 +67,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     headless.add_argument("--seed", type=non_negative_int, metavar="N", help="default: 0")
     headless.add_argument("--out", metavar="DIR", help="run directory; default: a new one in runs/")
-    headless.add_argument("--resume", metavar="DIR", help="continue the run of a directory")
+    headless.add_argument(
+        "--resume",
+        metavar="DIR",
+        help="continue the run of a directory; with --generations N to another end",
+    )
     headless.add_argument(
         "--cluster", metavar="ADDRESS", help="evaluate on the workers of a Dask scheduler"
     )

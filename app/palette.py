@@ -16,6 +16,15 @@ BEHAVIOURS: tuple[Colour, ...] = (
 )
 """LED colour of each behaviour code, told apart by the colour-blind too."""
 
+POPULATION: tuple[Colour, ...] = (
+    (109, 32, 119),  # purple
+    (232, 68, 42),  # red
+    (165, 227, 227),  # pale cyan
+    (107, 42, 0),  # brown
+    (230, 223, 160),  # sand
+)
+"""Of what individuals of a population have in common; none looks like an LED or an object."""
+
 OBJECT: Colour = (236, 40, 160)
 LIGHT: Colour = (255, 214, 92)
 

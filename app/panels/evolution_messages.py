@@ -5,19 +5,22 @@ from __future__ import annotations
 import inspect
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
 
+from geswarm import __version__
 from geswarm.evolution import Member
-from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual
+from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual, fall_in_words
 from geswarm.rules import RuleSet, describe, load_preset
 from geswarm.rules.text import format_rule
 from geswarm.sim import Scenario
 
+from .. import palette
 from ..server.channel import Message
+from ..state.behaviours import Label
 from ..state.evolution import Phase
 from ..state.look import Chosen, Look, main_line
 from ..state.plan import Plan, idle_settings, preset_of
@@ -87,21 +90,33 @@ def status_message(runs: Runs) -> Message:
     evolution, look = runs.evolution, runs.look
     shown, directory = runs.shown, evolution.directory
     settings = evolution.settings if evolution.active else None
+    about = _about(look) if look and shown == look.directory else None
     return {
         "type": "status",
         "phase": evolution.phase.name,
         "active": evolution.active,
         "error": evolution.error,
         "run": directory.name if directory else None,
-        "resumable": evolution.phase in (Phase.STOPPED, Phase.FAILED),
+        "remarks": list(evolution.remarks),
+        "resumable": _is_resumable(runs),
         "done": len(evolution.history),
         "generations": evolution.generations,
         "shown": shown.name if shown else None,
         "problem": runs.problem,
-        "about": _about(look) if look and shown == look.directory else None,
+        "about": about,
         "settings": {} if settings is None else settings.steerable,
         "idle": [] if settings is None else idle_settings(asdict(settings)),
     }
+
+
+def _is_resumable(runs: Runs) -> bool:
+    """The run looked at can go on, perhaps with more generations than it was to have."""
+    shown, evolution = runs.shown, runs.evolution
+    if shown is None or runs.is_active(shown.name):
+        return False
+    if runs.shows_present and evolution.phase in (Phase.STOPPED, Phase.FAILED):
+        return True
+    return runs.shown_look is not None and not runs.is_elsewhere(shown.name)
 
 
 def _about(look: Look) -> Message:
@@ -114,7 +129,9 @@ def _about(look: Look) -> Message:
         "generations": config.settings.generations,
         "done": len(look.history),
         "finished": look.finished,
+        "version": config.version if config.version != __version__ else None,
         "best": last and last.best_so_far,
+        "fall": fall_in_words([record.best_so_far for record in look.history]) if last else "",
         "mean": last and last.mean,
     }
 
@@ -128,10 +145,12 @@ def curves_message(runs: Runs) -> Message:
     """The curves of the run looked at, the references, and what people did to it."""
     look = runs.look
     history = [] if look is None else [look.history[at] for at in thinned(len(look.history))]
-    titles = [(load_preset(name).name, mean) for name, mean in runs.references.items()]
+    references = runs.references if look is runs.shown_look else {}
+    titles = [(load_preset(name).name, mean) for name, mean in references.items()]
     return {
         "type": "curves",
         "run": look.directory.name if look else None,
+        "reevaluated": look is not None and look.config.settings.reevaluate_elites,
         "generation": [record.generation for record in history],
         "best_so_far": [_short(record.best_so_far) for record in history],
         "best": [_short(record.best) for record in history],
@@ -142,14 +161,19 @@ def curves_message(runs: Runs) -> Message:
 
 
 def compared_message(runs: Runs) -> Message:
-    """The best so far of the runs that are compared, in their order."""
-    known = {summary.name: summary for summary in runs.kept}
+    """The best so far of the runs that are compared, each with the number of its colour."""
     return {
         "type": "compared",
         "runs": [
-            {"name": name, **_best_so_far(known[name].best_so_far)}
-            for name in runs.compared
-            if name in known
+            {
+                "name": summary.name,
+                "colour": runs.compared[summary.name],
+                "reevaluated": summary.config is not None
+                and summary.config.settings.reevaluate_elites,
+                **_best_so_far(runs.best_so_far(summary)),
+            }
+            for summary in runs.kept
+            if summary.name in runs.compared
         ],
     }
 
@@ -168,7 +192,13 @@ def thinned(length: int) -> list[int]:
 def population_message(look: Look | None) -> Message:
     """The individuals of the last generation, the best first, and how they differ."""
     members = look.population.members if look else ()
-    common = Counter(one.behaviour for one in members if one.behaviour is not None)
+    labels = look.labels if look else {}
+    counts = Counter(labels[one.behaviour] for one in members if one.behaviour is not None)
+    coloured = [
+        (label.number, counts[label], palette.css(palette.POPULATION[label.colour]))
+        for label in counts
+        if label.colour is not None
+    ]
     fitness = [one.fitness for one in members]
     return {
         "type": "population",
@@ -177,18 +207,17 @@ def population_message(look: Look | None) -> Message:
         "invalid": sum(one.rule_set is None for one in members),
         "behaviours": look.population.behaviours if look else 0,
         "diversity": round(look.population.diversity, 2) if look else 0,
-        "common": [[number, count] for number, count in common.most_common(MOST_COMPARED)],
+        "coloured": sorted(coloured),
         "fitness": histogram(fitness),
         "codons": histogram([one.codons for one in members]),
-        "members": [_member(one) for one in members[:MOST_ROWS]],
+        "members": [_member(one, labels) for one in members[:MOST_ROWS]],
     }
 
 
-def _member(one: Member) -> list[Any]:
+def _member(one: Member, labels: Mapping[str, Label]) -> list[Any]:
     rules = len(one.rule_set.rules) if one.rule_set else None
-    return [
-        one.generation, one.key, _short(one.fitness), one.told, one.codons, rules, one.behaviour
-    ]  # fmt: skip
+    number = None if one.behaviour is None else labels[one.behaviour].number
+    return [one.generation, one.key, _short(one.fitness), one.told, one.codons, rules, number]
 
 
 def histogram(values: Sequence[float]) -> Message:
@@ -236,7 +265,6 @@ def runs_message(runs: Runs) -> Message:
     """All runs that are kept."""
     return {
         "type": "runs",
-        "compared": list(runs.compared),
         "runs": [_run(summary, runs) for summary in runs.kept],
     }
 
@@ -245,18 +273,20 @@ def _run(summary: RunSummary, runs: Runs) -> Message:
     """A run; of the one under way what its thread knows, which is newer than its directory."""
     active = runs.is_active(summary.name)
     config, evolution = summary.config, runs.evolution
-    values = summary.best_so_far
-    if active:
-        values = tuple(record.best_so_far for record in evolution.history)
+    values = runs.best_so_far(summary)
+    generations = config.settings.generations if config else None
     return {
         "name": summary.name,
+        "colour": runs.compared.get(summary.name),
+        "elsewhere": runs.is_elsewhere(summary.name),
         "problem": summary.problem,
         "scenario": config.scenario.name if config else "",
         "preset": _preset(config.settings) if config else None,
         "seed": config.seed if config else None,
         "done": len(values),
-        "generations": config.settings.generations if config else None,
+        "generations": evolution.generations if active else generations,
         "best": _short(values[-1]) if values else None,
+        "fall": fall_in_words(values) if values else "",
         "phase": evolution.phase.name if active else _phase(summary).name,
         "written": summary.written,
     }

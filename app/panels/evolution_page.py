@@ -85,13 +85,14 @@ class EvolutionPage:
         evolution, look, plan = runs.evolution, runs.look, runs.plan
         rule_set, scenario = session.document.rule_set, session.scenario
         progress = (evolution.phase, evolution.error, evolution.settings, len(evolution.history))
+        compared = tuple(runs.compared.items())
         return {
             "plan": (
                 (plan, rule_set, scenario),
                 lambda: messages.plan_message(plan, scenario, rule_set),
             ),
             "status": (
-                (*progress, evolution.generations, runs.shown, runs.problem, look),
+                (*progress, evolution.generations, runs.shown, runs.problem, look, runs.kept),
                 lambda: messages.status_message(runs),
             ),
             "curves": (
@@ -99,13 +100,13 @@ class EvolutionPage:
                 lambda: messages.curves_message(runs),
             ),
             "compared": (
-                (runs.compared, runs.kept),
+                (compared, runs.kept, evolution.phase, runs.done),
                 lambda: messages.compared_message(runs),
             ),
             "population": ((look,), lambda: messages.population_message(look)),
             "ancestors": ((look,), lambda: messages.ancestors_message(look)),
             "runs": (
-                (runs.compared, runs.kept, evolution.phase, look),
+                (compared, runs.kept, evolution.phase, runs.done),
                 lambda: messages.runs_message(runs),
             ),
             "chosen": (
@@ -135,7 +136,7 @@ class EvolutionPage:
             told = self._carry_out[kind](message)
         except _REFUSALS as error:
             self.channel.send(client, messages.notice_message(str(error)))
-            for shown in ("plan", "status"):  # what was typed is not what holds
+            for shown in ("plan", "status", "runs"):  # what was typed or ticked is not what holds
                 self.channel.send(client, self._sources()[shown][1](), live=True)
         else:
             if told:
@@ -157,7 +158,10 @@ class EvolutionPage:
 
     def _resume(self, message: Message) -> None:
         self._require_rest(message)
-        self.session.runs.resume(_name(message))
+        name, generations = _name(message), message.get("generations")
+        if generations is not None and type(generations) is not int:
+            raise RequestError(f"generations: expected a whole number, got {str(generations)[:40]}")
+        self.session.runs.resume(name, generations)
 
     def _require_rest(self, message: Message) -> None:
         if self.session.evolution.active and message.get("instead") is not True:
@@ -179,10 +183,10 @@ class EvolutionPage:
         return f"{rule_set.name or 'The rules of the table'}: enters with the next generation"
 
     def _load_best(self, _message: Message) -> str:
-        look = self.session.runs.look
-        if look is None or look.best is None:
+        best = self.session.runs.best
+        if best is None:
             raise RequestError("there is no best rule set yet")
-        return self._put_in_place(look.best)
+        return self._put_in_place(best)
 
     def _load(self, _message: Message) -> str:
         return self._put_in_place(self._chosen.rule_set)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -10,18 +11,23 @@ import viser
 from viser import uplot
 from viser._gui_handles import GuiProgressBarHandle
 
+from geswarm.ge import GenerationRecord, fall_in_words
+
 from ..state.evolution import REFERENCES, EvolutionThread, Phase
+from ..state.runs import Runs
 from ..state.session import Session
 
 _DASHED = uplot.Series(dash=(6.0, 4.0))
+_BEST = ("#0f62d6", 2.5, uplot.Series())
 _CURVES = (
-    ("best so far", "#0f62d6", 2.5, uplot.Series()),
     ("best of generation", "#7aa7e8", 1.0, uplot.Series()),
     ("mean", "#8a8f98", 1.5, uplot.Series()),
     ("hand-coded", "#c2410c", 1.5, _DASHED),
     ("EVO 8", "#15803d", 1.5, _DASHED),
 )
 _FONT = "11px system-ui, sans-serif"
+_WHOLE = tuple(float(size * 10**power) for power in range(6) for size in (1, 2, 5))
+"""Distances between two ticks of the generations."""
 
 
 @dataclass
@@ -38,24 +44,28 @@ class EvolutionHandles:
 
 
 class EvolutionPanel:
-    """Shows the background evolution; its buttons post commands."""
+    """Shows the run looked at and the background evolution; its buttons post commands."""
 
     handles: EvolutionHandles
 
     def __init__(self, session: Session) -> None:
         self.session = session
         self._shown: tuple[object, ...] = ()
+        self._reevaluated = False
 
     def build(self, gui: viser.GuiApi) -> None:
         """Make the widgets in the present container."""
-        status = gui.add_html(status_html(self.session.evolution, []))
+        status = gui.add_html(status_html(self.session.runs, []))
         progress = gui.add_progress_bar(0.0, visible=False)
         chart = add_chart(gui)
         start = gui.add_button("Start evolution", icon=viser.Icon.DNA_2)
         pause = gui.add_button("Pause", icon=viser.Icon.PLAYER_PAUSE, visible=False)
         stop = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, visible=False)
         load = gui.add_button(
-            "Load the best into the arena", icon=viser.Icon.DOWNLOAD, disabled=True
+            "Load the best",
+            icon=viser.Icon.DOWNLOAD,
+            disabled=True,
+            hint="The best of the run above, into the table and the arena",
         )
         self.handles = EvolutionHandles(status, progress, start, pause, stop, load, chart)
         start.on_click(lambda _: self.session.post(begin))
@@ -69,28 +79,34 @@ class EvolutionPanel:
 
     def sync(self) -> None:
         """Show the evolution as it is."""
-        evolution, handles = self.session.evolution, self.handles
-        plan, rule_set = self.session.runs.plan, self.session.document.rule_set
-        progress = (evolution.phase, len(evolution.history), len(evolution.references))
-        shown = (*progress, plan, rule_set, self.session.campaigns.thread.active)
+        evolution, runs, handles = self.session.evolution, self.session.runs, self.handles
+        plan, rule_set = runs.plan, self.session.document.rule_set
+        history, references = runs.history, runs.references
+        progress = (evolution.phase, len(evolution.history), evolution.remarks)
+        looked_at = (runs.shown, len(history), len(references), runs.best is None)
+        campaign = self.session.campaigns.thread.active
+        shown = (*progress, *looked_at, plan, rule_set, campaign)
         if shown == self._shown:
             return
         self._shown = shown
         findings = plan.findings(rule_set)
-        handles.status.content = status_html(evolution, list(findings))
-        handles.start.disabled = bool(findings) or self.session.campaigns.thread.active
+        handles.status.content = status_html(runs, list(findings))
+        handles.start.disabled = bool(findings) or campaign
         handles.start.visible = not evolution.active
         handles.pause.visible = handles.stop.visible = evolution.active
         paused = evolution.phase is Phase.PAUSED
         handles.pause.label = "Go on" if paused else "Pause"
-        handles.load_best.disabled = evolution.best is None
+        handles.load_best.disabled = runs.best is None
         handles.progress.visible = evolution.active
         if evolution.generations:
             done = 100.0 * len(evolution.history) / evolution.generations
             handles.progress.value = done  # type: ignore[misc]  # viser types it read-only
-        drawn = bool(evolution.history) and len(evolution.references) == len(REFERENCES)
+        drawn = bool(history) and len(references) == len(REFERENCES)
         if drawn:
-            handles.chart.data = curves(evolution)
+            if runs.reevaluated != self._reevaluated:
+                self._reevaluated = runs.reevaluated
+                handles.chart.series = series(runs.reevaluated)
+            handles.chart.data = curves(history, references)
         handles.chart.visible = drawn
 
 
@@ -106,8 +122,8 @@ def begin(session: Session) -> None:
 
 
 def load_best(session: Session) -> None:
-    """Load the best rule set that evolution has found so far, if there is one."""
-    if (best := session.evolution.best) is not None:
+    """Load the best rule set of the run looked at, if there is one."""
+    if (best := session.runs.best) is not None:
         session.load(best)
 
 
@@ -134,18 +150,10 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
         )
 
     return gui.add_uplot(
-        data=tuple(np.zeros(1) for _ in range(len(_CURVES) + 1)),
-        series=(
-            uplot.Series(label="generation"),
-            *(
-                uplot.Series(
-                    label=label, stroke=colour, width=width, points={"show": False}, **dash
-                )
-                for label, colour, width, dash in _CURVES
-            ),
-        ),
+        data=tuple(np.zeros(1) for _ in series(False)),
+        series=series(False),
         scales={"x": uplot.Scale(time=False)},
-        axes=(axis("generation", 24), axis("objects collected", 32)),
+        axes=({**axis("generation", 24), "incrs": _WHOLE}, axis("objects collected", 32)),
         legend=uplot.Legend(live=False),
         aspect=1.35,
         padding=(8, 8, 0, 0),  # px: room for half of the highest number
@@ -153,37 +161,72 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
     )
 
 
-def curves(evolution: EvolutionThread) -> tuple[np.ndarray, ...]:
+def series(reevaluated: bool) -> tuple[uplot.Series, ...]:
+    """What the chart shows.
+
+    Args:
+        reevaluated: The best is evaluated again and again, so that its curve can fall.
+    """
+    best = "best, re-evaluated" if reevaluated else "best so far"
+    return (
+        uplot.Series(label="generation"),
+        *(
+            uplot.Series(label=label, stroke=colour, width=width, points={"show": False}, **dash)
+            for label, colour, width, dash in ((best, *_BEST), *_CURVES)
+        ),
+    )
+
+
+def curves(
+    history: Sequence[GenerationRecord], references: Mapping[str, float]
+) -> tuple[np.ndarray, ...]:
     """Generations and the five curves over them, in the order of the legend."""
-    history = evolution.history
     columns = [
         np.array([getattr(record, name) for record in history], dtype=np.float64)
         for name in ("generation", "best_so_far", "best", "mean")
     ]
-    lines = [np.full(len(history), evolution.references[name]) for name in REFERENCES]
+    lines = [np.full(len(history), references[name]) for name in REFERENCES]
     return (*columns, *lines)
 
 
-def status_html(evolution: EvolutionThread, findings: list[str]) -> str:
-    """One or two lines about the run, as HTML.
+def status_html(runs: Runs, findings: list[str]) -> str:
+    """A few lines about the run looked at, and the one under way if that is another, as HTML.
 
     Args:
-        evolution: It.
+        runs: All of them.
         findings: Names of the parameters of the next run that cannot be used.
     """
+    evolution, history, shown = runs.evolution, runs.history, runs.shown
     if findings and not evolution.active:
         text = f"The page Evolution tells what is wrong with: {', '.join(findings)}."
+    elif not runs.shows_present:
+        text = _opened(runs)
     elif evolution.phase is Phase.IDLE:
         text = "Evolves foraging rules in the scenario of the arena, while the swarm goes on."
     elif evolution.phase is Phase.FAILED:
         text = f"Evolution failed: {evolution.error}"
-    elif not evolution.history:
+    elif not history:
         text = "Running hand-coded and EVO 8 for comparison…"
     else:
-        record = evolution.history[-1]
-        text = (
-            f"Generation {record.generation} of {evolution.generations}, {evolution.phase.value}: "
-            f"best {record.best_so_far:.1f}, mean {record.mean:.1f}."
-        )
-    where = f" Kept in {evolution.directory}." if evolution.directory else ""
-    return f'<div style="padding:.2em .9em;font-size:.85em">{escape(text + where)}</div>'
+        done = f"Generation {len(history)} of {evolution.generations}, {evolution.phase.value}"
+        text = f"{done}: {_figures(history)}"
+    where = f" Kept in {shown}." if shown else ""
+    remarks = " ".join(("", *evolution.remarks)) if runs.shows_present else ""
+    text += where + remarks
+    return f'<div style="padding:.2em .9em;font-size:.85em">{escape(text)}</div>'
+
+
+def _figures(history: Sequence[GenerationRecord]) -> str:
+    record = history[-1]
+    fall = fall_in_words([one.best_so_far for one in history])
+    return f"best {record.best_so_far:.1f}{fall and f' ({fall})'}, mean {record.mean:.1f}."
+
+
+def _opened(runs: Runs) -> str:
+    """Another run is looked at than the present or last one."""
+    evolution, history = runs.evolution, runs.history
+    text = "An earlier run, opened on the page Evolution"
+    text += f": generation {len(history)}, {_figures(history)}" if history else "."
+    if evolution.active and evolution.directory is not None:
+        text += f" Meanwhile {evolution.directory.name} is {evolution.phase.value}."
+    return text

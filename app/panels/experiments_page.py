@@ -42,7 +42,7 @@ class ExperimentsPage:
         self._since_refresh = REFRESH_SECONDS
         self._seen: dict[str, tuple[object, ...]] = {}
         comparison, campaigns = session.comparison, session.campaigns
-        self._carry_out: dict[str, Callable[[Message], None]] = {
+        self._carry_out: dict[str, Callable[[Message], str | None]] = {
             "watch": self._watch,
             "choose": lambda message: comparison.choose(
                 _text(message, "what"), _text(message, "name"), message.get("on") is True
@@ -150,11 +150,14 @@ class ExperimentsPage:
         try:
             if kind not in self._carry_out:
                 raise RequestError(f"unknown message {kind!r}")
-            self._carry_out[kind](message)
+            told = self._carry_out[kind](message)
         except (RequestError, ChoiceError, CampaignError, RuleSetError) as error:
             self.channel.send(client, notice_message(str(error)))
             for shown in ("choice", "draft"):  # what was typed is not what holds
                 self.channel.send(client, self._sources()[shown][1](), live=True)
+        else:
+            if told:
+                self.channel.send(client, notice_message(told, "info"))
 
     def _choice(self, message: Message) -> None:
         """Another number of runs, seed, or rule set to compare with."""

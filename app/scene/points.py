@@ -9,7 +9,7 @@ from geswarm.sim.footbot import RADIUS
 
 from .. import palette
 from ..state.view import ArenaView
-from .footbot import HEIGHT, OBJECT_HEIGHT, RADIUS
+from .footbot import HEIGHT, OBJECT_HEIGHT
 
 _PER_EXTENT = 1 / 300
 """Least diameter of a point by the extent of the arena: about two pixels."""

@@ -137,14 +137,16 @@ class Campaigns:
         what = f"campaign-{plan.runs}x{plan.generations}-seed{plan.seed}"
         self._launch(Campaign.at(new_directory(what, self.folder.path), **asdict(plan)))
 
-    def resume(self, name: str) -> None:
-        """Go on with a campaign.
+    def resume(self, name: str) -> str:
+        """Go on with a campaign; says what there is to know of it, usually nothing.
 
         Raises:
             CampaignError: There is no such campaign, or something else is under way.
         """
         self._require_rest()
-        self._launch(Campaign.at(self.folder.directory(name)))
+        campaign = Campaign.at(self.folder.directory(name))
+        self._launch(campaign)
+        return " ".join(campaign.remarks)
 
     def open(self, name: str) -> None:
         """Look at a campaign.

@@ -15,6 +15,7 @@ from geswarm.sim import EvaluationStopped, Scenario, load_scenario, scenario_nam
 from ..run_directory import RUNS
 from .background import Newest, Stop
 from .plan import LARGEST_SEED
+from .rival import best_of
 
 ARENA, TABLE = "arena", "table"
 MOST_RUNS, LEAST_RUNS = 1000, 2
@@ -249,4 +250,4 @@ def _kept_rule_sets(folder: Path) -> Iterator[tuple[str, Path]]:
     directories = [(path.relative_to(folder).parts[0], path) for path in found if path.is_file()]
     directories.sort(key=lambda item: item[1].stat().st_mtime, reverse=True)
     for directory, path in directories[:_MOST_KEPT]:
-        yield f"best of {directory}", path
+        yield best_of(directory), path

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from geswarm.evaluation import evaluate_rule_sets
 from geswarm.evolution import EvolutionRun, InjectionError, RunConfig
-from geswarm.ge import GenerationRecord, Settings, SettingsError
+from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import EvaluationStopped, Scenario
 
@@ -38,6 +38,7 @@ class EvolutionThread:
         workers: Threads that evaluate; leave one core to the arena.
         phase: What it is doing.
         error: Why it failed, else empty.
+        remarks: What there is to know of the run that was resumed, usually nothing.
         directory: Of the present or last run.
         run: The run under way, if there is one; see `EvolutionRun` for what threads may do with it.
         settings: The run's, as they will be in the next generation.
@@ -51,6 +52,7 @@ class EvolutionThread:
         self.workers = workers
         self.phase = Phase.IDLE
         self.error = ""
+        self.remarks: tuple[str, ...] = ()
         self.directory: Path | None = None
         self.run: EvolutionRun | None = None
         self.settings: Settings | None = None
@@ -84,9 +86,14 @@ class EvolutionThread:
 
         self._launch(begin, directory)
 
-    def resume(self, directory: Path) -> None:
-        """Continue the run of a directory; any run under way is stopped first."""
-        self._launch(lambda: EvolutionRun.resume(directory), directory)
+    def resume(self, directory: Path, generations: int | None = None) -> None:
+        """Continue the run of a directory; any run under way is stopped first.
+
+        Args:
+            directory: Where it is kept.
+            generations: How many it is to have; as many as it was to have unless given.
+        """
+        self._launch(lambda: EvolutionRun.resume(directory, generations), directory)
 
     def pause(self) -> None:
         """Wait after the generation at work."""
@@ -130,7 +137,7 @@ class EvolutionThread:
 
     def forget(self) -> None:
         """Know nothing of the last run, as before the first one."""
-        self.error, self.directory = "", None
+        self.error, self.remarks, self.directory = "", (), None
         self.history, self.best, self.references = (), None, {}
         self.generations, self.settings = 0, None
         self.phase = Phase.IDLE
@@ -150,6 +157,7 @@ class EvolutionThread:
         run = None
         try:
             run = self.run = open_run()
+            self.remarks = run.remarks
             self.history, self.best = tuple(run.history), run.best
             self.generations, self.settings = run.config.settings.generations, run.settings
             for name, mean in evaluate_references(
@@ -160,6 +168,9 @@ class EvolutionThread:
             self.phase = Phase.FINISHED if run.finished else Phase.STOPPED
         except EvaluationStopped:
             self.phase = Phase.STOPPED
+        except StoreError as error:
+            self.error = str(error)
+            self.phase = Phase.FAILED
         except Exception as error:  # whatever it is: the arena goes on and the user is told
             self.error = f"{type(error).__name__}: {error}"
             self.phase = Phase.FAILED

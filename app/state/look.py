@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from geswarm.ge import (
 )
 from geswarm.rules import Origin, RuleSet
 
+from .behaviours import Label, Labels
 from .run_folder import stamp_of
 
 
@@ -65,6 +66,7 @@ class Look:
         history: All generations so far.
         marks: What people did to it.
         population: After the last of these generations.
+        labels: What its behaviours are told by, by `Member.behaviour`.
         ancestors: The best individual and everyone it descends from, oldest first.
         best: The best rule set; None before the first generation.
     """
@@ -75,23 +77,30 @@ class Look:
     history: tuple[GenerationRecord, ...]
     marks: tuple[Mark, ...]
     population: Population
+    labels: Mapping[str, Label]
     ancestors: tuple[StoredIndividual, ...]
     best: RuleSet | None
 
     @classmethod
-    def at(cls, run: EvolutionRun) -> Look:
+    def at(cls, run: EvolutionRun, labels: Labels) -> Look:
         """Look at a run.
+
+        Args:
+            run: It.
+            labels: Those of its behaviours so far.
 
         Raises:
             StoreError: It cannot be read, perhaps because it was closed meanwhile.
         """
+        population = run.population()
         return cls(
             run.directory,
             run.config,
             run.settings,
             tuple(run.history),
             _marks(run),
-            run.population(),
+            population,
+            labels.of(population),
             tuple(run.genealogy()),
             run.best,
         )
@@ -146,6 +155,7 @@ class Lens:
         self.look: Look | None = None
         self.problem = ""
         self._seen: tuple[object, ...] = ()
+        self._labels = Labels()
 
     def turn_to(self, directory: Path | None, live: EvolutionRun | None) -> None:
         """Look at a run again, or at another one, or at none.
@@ -158,21 +168,23 @@ class Lens:
         seen = (directory, written if live is None else (live, len(live.history)))
         if seen == self._seen:
             return
+        if self._seen[:1] != (directory,):
+            self._labels = Labels()
         look, problem = None, ""
         try:
             if live is not None:
-                look = Look.at(live)
+                look = Look.at(live, self._labels)
             elif directory is not None:
-                look = _read(directory)
+                look = _read(directory, self._labels)
         except Exception as error:  # damaged in whatever way: the dashboard goes on
             problem = str(error) if isinstance(error, StoreError) else f"{directory}: {error!r}"
         self.look, self.problem, self._seen = look, problem, seen
 
 
-def _read(directory: Path) -> Look:
+def _read(directory: Path, labels: Labels) -> Look:
     run = EvolutionRun.read(directory)
     try:
-        return Look.at(run)
+        return Look.at(run, labels)
     finally:
         run.close()
 

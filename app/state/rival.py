@@ -12,7 +12,6 @@ from .runs import Runs
 from .swarm import Swarm
 
 BEFORE = "before the last edit"
-BEST = "best of the run"
 CHOSEN = "individual clicked"
 
 
@@ -29,6 +28,11 @@ class Rival:
     swarm: Swarm
 
 
+def best_of(run: str) -> str:
+    """What the best rule set of a run is called wherever it can be chosen."""
+    return f"best of {run}"
+
+
 @cache
 def _presets() -> tuple[RuleSet, ...]:
     """Read once: the panel asks ten times a second."""
@@ -40,8 +44,8 @@ def rivals_offered(document: RuleDocument, runs: Runs) -> dict[str, RuleSet]:
     offered = {preset.name: preset for preset in _presets()}
     if document.before is not None:
         offered[BEFORE] = document.before
-    if runs.evolution.best is not None:
-        offered[BEST] = runs.evolution.best
+    if runs.best is not None and runs.shown is not None:
+        offered[best_of(runs.shown.name)] = runs.best
     if runs.chosen is not None:
         offered[CHOSEN] = runs.chosen.rule_set
     return offered

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
 from geswarm.evolution import RunConfig, RunConfigError
 from geswarm.ge import RunStore, StoreError
-from geswarm.ge.database import require_run
+from geswarm.ge.database import OWN_FILES, require_run
+from geswarm.ge.locks import Claim, is_written
 
 Stamp: TypeAlias = tuple[tuple[int, int], ...]
 """Time (ns) and size of the files that a run is written to."""
@@ -17,7 +18,7 @@ Stamp: TypeAlias = tuple[tuple[int, int], ...]
 MOST_RUNS = 500
 """Shown at most, the newest."""
 
-_OWN = ("best.yaml", "config.yaml", "history.csv", "run.db-wal", "run.db-shm", "run.db")
+_OWN = ("best.yaml", "config.yaml", "history.csv", *OWN_FILES)
 """What a run consists of; `run.db` is removed last, so that a run removed in part is still one."""
 
 
@@ -35,6 +36,7 @@ class RunSummary:
         config: How it began; None if it cannot be read.
         best_so_far: Of every generation that is done.
         problem: Why it cannot be read, else empty.
+        written_now: A process is at work on it, perhaps this one.
     """
 
     name: str
@@ -42,6 +44,7 @@ class RunSummary:
     config: RunConfig | None = None
     best_so_far: tuple[float, ...] = ()
     problem: str = ""
+    written_now: bool = False
 
     @property
     def written(self) -> float:
@@ -78,6 +81,8 @@ class RunFolder:
             known = self._known.get(directory.name)
             if known is None or (known.stamp != stamp and directory != unread):
                 known = read_summary(directory, stamp)
+            if known.written_now != (now := is_written(directory)):
+                known = replace(known, written_now=now)
             found.append(known)
         self._known = {summary.name: summary for summary in found}
         found.sort(key=lambda summary: (-summary.written, summary.name))
@@ -106,8 +111,12 @@ class RunFolder:
         directory = self.directory(name)
         try:
             require_run(directory / "run.db")
-            for own in _OWN:
-                (directory / own).unlink(missing_ok=True)
+            claim = Claim(directory)
+            try:
+                for own in _OWN:
+                    (directory / own).unlink(missing_ok=True)
+            finally:
+                claim.give_up()
             left = sorted(path.name for path in directory.iterdir())
             if not left:
                 directory.rmdir()

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 from pathlib import Path
 
+from geswarm.ge import GenerationRecord, Settings
+from geswarm.ge.locks import is_written
 from geswarm.rules import RuleSet
 from geswarm.sim import EvaluationStopped, Scenario
 
@@ -29,9 +32,11 @@ class Runs:
         evolution: The run under way.
         plan: Of the next run.
         kept: All of the run folder, the newest first.
-        compared: Names of runs whose curves are laid over the one looked at.
+        compared: Runs whose curves are laid over one another: the number of the colour by the name
+            of the run, which keeps it for as long as it is compared.
         look: The run looked at; None if there is none.
         problem: Why the run cannot be looked at, else empty.
+        done: Generations of the run under way, when things were last found out.
         chosen: The individual looked at, if any.
     """
 
@@ -39,9 +44,10 @@ class Runs:
         self.evolution = evolution
         self.plan = Plan()
         self.kept: tuple[RunSummary, ...] = ()
-        self.compared: tuple[str, ...] = ()
+        self.compared: dict[str, int] = {}
         self.look: Look | None = None
         self.problem = ""
+        self.done = 0
         self.chosen: Chosen | None = None
         self._folder = RunFolder(folder)
         self._rule_set = rule_set
@@ -56,18 +62,63 @@ class Runs:
         return self._opened or self.evolution.directory
 
     @property
+    def shows_present(self) -> bool:
+        """The run looked at is the present or last one of this session, or there is none."""
+        return self.shown == self.evolution.directory
+
+    @property
+    def shown_look(self) -> Look | None:
+        """The look at the run looked at; None as long as there is only one at another run."""
+        return self.look if self.look is not None and self.look.directory == self.shown else None
+
+    @property
+    def history(self) -> tuple[GenerationRecord, ...]:
+        """Of the run looked at, as far as it is known."""
+        if self.shows_present:
+            return self.evolution.history
+        return self.shown_look.history if self.shown_look else ()
+
+    @property
+    def reevaluated(self) -> bool:
+        """The best of the run looked at is evaluated again and again: it can fall."""
+        if self.shows_present:
+            settings = self.evolution.settings
+        else:
+            settings = self.shown_look.settings if self.shown_look else None
+        return settings is not None and settings.reevaluate_elites
+
+    @property
+    def best(self) -> RuleSet | None:
+        """The best rule set of the run looked at, if there is one."""
+        if self.shows_present:
+            return self.evolution.best
+        return self.shown_look.best if self.shown_look else None
+
+    @property
     def references(self) -> dict[str, float]:
         """Mean collected of the presets where the run looked at took place, once known."""
-        if self.look is None:
-            return {}
-        if self.look.directory == self.evolution.directory:
+        if self.shows_present:
             return self.evolution.references
-        return self._references.get(self.look.config.scenario, {})
+        look = self.shown_look
+        return self._references.get(look.config.scenario, {}) if look else {}
+
+    def best_so_far(self, summary: RunSummary) -> tuple[float, ...]:
+        """Of a run that is kept; of the one under way as its thread knows it, which is newer."""
+        if self.is_active(summary.name):
+            return tuple(record.best_so_far for record in self.evolution.history)
+        return summary.best_so_far
 
     def is_active(self, name: str) -> bool:
         """The run of that name is under way."""
         directory = self.evolution.directory
         return self.evolution.active and directory is not None and directory.name == name
+
+    def is_elsewhere(self, name: str) -> bool:
+        """A run that is kept is under way in another process."""
+        present = self.evolution.directory
+        return (present is None or present.name != name) and any(
+            summary.written_now for summary in self.kept if summary.name == name
+        )
 
     # --- the next run -------------------------------------------------------------------------
 
@@ -100,18 +151,27 @@ class Runs:
 
     # --- the runs that are kept ---------------------------------------------------------------
 
-    def resume(self, name: str) -> None:
+    def resume(self, name: str, generations: int | None = None) -> None:
         """Continue a run; any other under way is stopped.
 
+        Args:
+            name: Of the run.
+            generations: How many it is to have; as many as it was to have unless given.
+
         Raises:
-            RunError: There is no such run, or it is finished or under way.
+            RunError: There is no such run, it is under way, here or elsewhere, or as many
+                generations are done.
+            SettingsError: So many generations cannot be.
         """
         directory = self._folder.directory(name)
         if self.is_active(name):
             raise RunError(f"{name} is under way already")
-        if any(summary.name == name and summary.finished for summary in self.kept):
-            raise RunError(f"{name} is finished: all its generations are done")
-        self.evolution.resume(directory)
+        if is_written(directory) and directory != self.evolution.directory:
+            raise RunError(f"{name} is under way in another process: stop it there first")
+        for summary in self.kept:
+            if summary.name == name and summary.config is not None:
+                _require_more(summary, summary.config.settings, generations)
+        self.evolution.resume(directory, generations)
         self._opened = None
 
     def open(self, name: str) -> None:
@@ -128,12 +188,15 @@ class Runs:
         Raises:
             RunError: There is no such run, or there are too many.
         """
-        others = tuple(one for one in self.compared if one != name)
+        others = {one: colour for one, colour in self.compared.items() if one != name}
+        if wanted and name in self.compared:
+            return
         if wanted:
             self._folder.directory(name)
-            if len(others) == MOST_COMPARED:
+            free = set(range(MOST_COMPARED)).difference(others.values())
+            if not free:
                 raise RunError(f"expected at most {MOST_COMPARED} runs to compare")
-            others = (*others, name)
+            others[name] = min(free)
         self.compared = others
 
     def delete(self, name: str) -> str:
@@ -146,7 +209,7 @@ class Runs:
             raise RunError(f"{name} is under way: stop it before it is deleted")
         left = self._folder.delete(name)
         self.kept = tuple(summary for summary in self.kept if summary.name != name)
-        self.compared = tuple(one for one in self.compared if one != name)
+        self.compare(name, False)
         if self._opened is not None and self._opened.name == name:
             self._opened = None
         if self.evolution.directory is not None and self.evolution.directory.name == name:
@@ -190,6 +253,7 @@ class Runs:
         self._lens.turn_to(directory, live)
         self.look, self.problem = self._lens.look, self._lens.problem
         self.kept = self._folder.scan(evolution.directory if evolution.active else None)
+        self.done = len(evolution.history)
         if self.look is not None and live is None:
             self._find_references(
                 self.look.config.scenario,
@@ -202,3 +266,21 @@ class Runs:
             return
         with contextlib.suppress(EvaluationStopped):
             self._references[scenario] = dict(evaluate_references(scenario, 1, stop))
+
+
+def _require_more(summary: RunSummary, settings: Settings, generations: int | None) -> None:
+    """Check that a run is to have more generations than it has.
+
+    Raises:
+        RunError: It is not.
+        SettingsError: There cannot be so many.
+    """
+    done = len(summary.best_so_far)
+    if generations is None:
+        generations = settings.generations
+    replace(settings, generations=generations)  # raises if that cannot be
+    if generations <= done:
+        raise RunError(
+            f"{summary.name}: {done} generations are done, expected more of them to resume it, "
+            f"got {generations}"
+        )

@@ -58,6 +58,8 @@ def _reproduce(options: argparse.Namespace) -> int:
             campaign = Campaign.at(options.out, **asked)
         except CampaignError as error:
             raise UsageError(str(error)) from error
+        for remark in campaign.remarks:
+            _say(remark)
         return _carry_out(campaign, options, stop)
 
 
@@ -73,7 +75,7 @@ def _carry_out(campaign: Campaign, options: argparse.Namespace, stop: threading.
         try:
             executor = None
             if options.cluster is not None:
-                executor = resources.enter_context(cluster_executor(options.cluster))
+                executor = resources.enter_context(cluster_executor(options.cluster, _say))
             with _progress() as on_progress:
                 results = campaign.run(options.workers, executor, on_progress, stop.is_set)
         except ClusterError as error:
@@ -87,6 +89,10 @@ def _carry_out(campaign: Campaign, options: argparse.Namespace, stop: threading.
     _print_claims(results)
     print(f"Report: {campaign.directory / 'report.html'}", file=sys.stderr)
     return 0
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 @contextmanager

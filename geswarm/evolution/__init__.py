@@ -14,7 +14,7 @@ from geswarm.evolution.composition import Composition, InjectionError
 from geswarm.evolution.fitness import EvaluationError, ForagingFitness
 from geswarm.evolution.grammar import rule_grammar
 from geswarm.evolution.population import Member, Population
-from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError
+from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError, version_remarks
 
 __all__ = [
     "ClusterError",
@@ -29,4 +29,5 @@ __all__ = [
     "RunConfigError",
     "cluster_executor",
     "rule_grammar",
+    "version_remarks",
 ]

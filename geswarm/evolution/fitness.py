@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import Executor, wait
+from concurrent.futures import CancelledError, Executor, wait
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -105,12 +105,20 @@ class ForagingFitness:
         except Stopped:
             raise
         except Exception as error:  # whatever an executor raises: the run can be resumed
-            raise EvaluationError(
-                f"the simulations could not be run: {type(error).__name__}: {error}"
-            ) from error
+            raise EvaluationError(f"the simulations could not be run: {_why(error)}") from error
         finally:
             for future in futures:
                 future.cancel()
+
+
+def _why(error: Exception) -> str:
+    """What an executor's failure means."""
+    if isinstance(error, CancelledError):
+        return "they were given up; the scheduler of the cluster is gone"
+    reason = f"{type(error).__name__}: {error}"
+    if isinstance(error, ImportError):
+        return f"a worker cannot import what it needs, GESwarm {__version__}: {reason}"
+    return reason
 
 
 def simulate_share(

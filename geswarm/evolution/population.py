@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -23,7 +24,8 @@ class Member:
         told: How often it was evaluated.
         codons: Its size.
         rule_set: Its rules; None if it is invalid.
-        behaviour: Equal numbers: robots decide the same; None if it is invalid.
+        behaviour: Equal texts: robots decide the same, in whatever generation; None if it is
+            invalid.
     """
 
     generation: int
@@ -32,7 +34,7 @@ class Member:
     told: int
     codons: int
     rule_set: RuleSet | None
-    behaviour: int | None
+    behaviour: str | None
 
 
 @dataclass(frozen=True)
@@ -53,16 +55,19 @@ class Population:
     @classmethod
     def of(cls, individuals: Sequence[Individual], composition: Composition) -> Population:
         """Look at the individuals of an engine, in its order."""
-        behaviours: dict[bytes, int] = {}
         members = []
         for one in individuals:
             rule_set = behaviour = None
             if one.phenotype is not None:
                 rule_set = composition.rule_set(one.phenotype)
-                key = composition.behaviour(one.phenotype)
-                behaviour = behaviours.setdefault(key, len(behaviours))
+                behaviour = _digest(composition.behaviour(one.phenotype))
             members.append(Member(*one.birth, one.value, one.told, one.used, rule_set, behaviour))
         numbers = Counter(one.behaviour for one in members if one.behaviour is not None)
         shares = [number / sum(numbers.values()) for number in numbers.values()]
         entropy = -math.fsum(share * math.log(share) for share in shares)
-        return cls(tuple(members), len(behaviours), math.exp(entropy) if shares else 0.0)
+        return cls(tuple(members), len(numbers), math.exp(entropy) if shares else 0.0)
+
+
+def _digest(behaviour: bytes) -> str:
+    """A name of a behaviour: 128 bits, so that no two have the same."""
+    return hashlib.blake2b(behaviour, digest_size=16).hexdigest()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 import yaml
@@ -23,6 +23,7 @@ from geswarm.ge import (
     RunStore,
     Settings,
     SettingsChange,
+    SettingsError,
     Steering,
     StoredIndividual,
     StoredSteering,
@@ -55,12 +56,14 @@ class RunConfig:
         settings: Of the evolutionary algorithm, at the beginning.
         seed: Of all random numbers.
         frozen: Rules that stand before the evolved ones and never change.
+        version: Of GESwarm, with which the run began.
     """
 
     scenario: Scenario
     settings: Settings
     seed: int = 0
     frozen: tuple[Rule, ...] = ()
+    version: str = field(default=__version__, compare=False)
 
     @property
     def composition(self) -> Composition:
@@ -70,7 +73,7 @@ class RunConfig:
     def to_yaml(self) -> str:
         """The text of config.yaml, everything resolved."""
         document = {
-            "geswarm": __version__,
+            "geswarm": self.version,
             "seed": self.seed,
             "evolution": asdict(self.settings),
             "frozen": format_text(RuleSet(self.frozen)) if self.frozen else "",
@@ -86,24 +89,35 @@ class RunConfig:
         Raises:
             RunConfigError: It is something else.
         """
+        began = ""
         try:
-            match plain_yaml.load(text):
+            document = plain_yaml.load(text)
+            match document:
                 case {
+                    "geswarm": str(version),
                     "seed": int(seed),
                     "evolution": dict(settings),
                     "frozen": str(frozen),
                     "scenario_name": str(name),
                     "scenario": dict(scenario),
                 } if 0 <= seed < 2**63:
+                    if version != __version__:
+                        began = f" (of GESwarm {version}; this is {__version__})"
+                    if unknown := [str(key) for key in document if key not in _CONFIG_KEYS]:
+                        raise ValueError(f"unknown: {', '.join(unknown)}")
                     return cls(
                         scenario=parse_scenario(yaml.safe_dump(scenario), name),
-                        settings=Settings(**settings),
+                        settings=Settings.of(**{str(key): settings[key] for key in settings}),
                         seed=seed,
                         frozen=parse_text(frozen).rules if frozen else (),
+                        version=version,
                     )
-            raise ValueError("expected seed, evolution, frozen, scenario_name and scenario")
-        except (TypeError, ValueError) as error:  # the former for a setting of another name
-            raise RunConfigError(f"not the configuration of a run: {error}") from error
+            raise ValueError(f"expected {', '.join(_CONFIG_KEYS)}")
+        except (TypeError, ValueError) as error:
+            raise RunConfigError(f"not the configuration of a run{began}: {error}") from error
+
+
+_CONFIG_KEYS = ("geswarm", "seed", "evolution", "frozen", "scenario_name", "scenario")
 
 
 class EvolutionRun:
@@ -113,8 +127,9 @@ class EvolutionRun:
     in another.
 
     Attributes:
-        config: How it began.
+        config: How it began; `generations` are those of now.
         directory: Where it is kept.
+        remarks: What whoever continues it should know: sentences, usually none.
         history: One record per generation finished, those before a resume included.
         steering: What was changed on the way, with the generation from which on.
     """
@@ -122,6 +137,7 @@ class EvolutionRun:
     def __init__(self, config: RunConfig, store: RunStore, engine: Engine) -> None:
         self.config = config
         self.directory = store.directory
+        self.remarks = tuple(_remarks(config, store))
         self.history: list[GenerationRecord] = store.history()
         self.steering: list[StoredSteering] = store.steering()
         self._store = store
@@ -141,16 +157,24 @@ class EvolutionRun:
         return cls(config, store, engine)
 
     @classmethod
-    def resume(cls, directory: str | Path) -> EvolutionRun:
+    def resume(cls, directory: str | Path, generations: int | None = None) -> EvolutionRun:
         """Continue a run exactly where its last complete generation ended.
 
+        Args:
+            directory: Where it is kept.
+            generations: How many it is to have from now on, at least as many as are done; as many
+                as it was to have unless given. They decide nothing before its end.
+
         Raises:
-            StoreError: There is no run, or it cannot be used.
+            StoreError: There is no run, or it cannot be used; or another process is at work on it.
+            SettingsError: So many generations cannot be.
         """
         run = cls._open(directory)
         try:
+            if generations is not None:
+                run._extend(generations)
             run._save_best()  # a run killed before it wrote best.yaml has it now
-        except StoreError:
+        except (StoreError, SettingsError):
             run.close()
             raise
         return run
@@ -183,6 +207,18 @@ class EvolutionRun:
         except (ValueError, StoreError) as error:
             store.close()
             raise StoreError(f"{directory}: {error}") from error
+
+    def _extend(self, generations: int) -> None:
+        """Have another number of generations, on disk first."""
+        settings = replace(self.config.settings, generations=generations)
+        if generations < (done := len(self.history)):
+            raise SettingsError(
+                [f"generations: {done} are done, expected as many or more, got {generations}"]
+            )
+        if settings != self.config.settings:
+            self.config = replace(self.config, settings=settings)
+            self._store.change_config(self.config.to_yaml())
+            self._engine.settings = replace(self._engine.settings, generations=generations)
 
     @property
     def finished(self) -> bool:
@@ -298,3 +334,22 @@ class EvolutionRun:
     def close(self) -> None:
         """Close the directory."""
         self._store.close()
+
+
+def version_remarks(what: str, version: str) -> tuple[str, ...]:
+    """What to know of something that is continued and that a version began: nothing if this did."""
+    if version == __version__:
+        return ()
+    return (
+        f"{what} began with GESwarm {version} and goes on with {__version__}: results may differ "
+        "from those of one version.",
+    )
+
+
+def _remarks(config: RunConfig, store: RunStore) -> Iterator[str]:
+    yield from version_remarks("This run", config.version)
+    if store.config_differed:
+        yield (
+            "config.yaml had been changed; what counts is run.db, so it says again what it did. "
+            "Only the number of generations can change when a run is resumed."
+        )

@@ -32,7 +32,7 @@ from geswarm.ge.grammar import Grammar, GrammarError
 from geswarm.ge.individual import Individual
 from geswarm.ge.inverse import NotASentenceError, genome_of
 from geswarm.ge.mapping import Derivation, Genome, Mapper
-from geswarm.ge.record import GenerationRecord
+from geswarm.ge.record import GenerationRecord, fall_in_words
 from geswarm.ge.settings import CHOICES, PRESETS, STEERABLE, Settings, SettingsError
 from geswarm.ge.steering import Injection, SettingsChange, Steering, StoredSteering
 from geswarm.ge.store import RunStore, StoredBest, StoredIndividual
@@ -69,5 +69,6 @@ __all__ = [
     "StoredIndividual",
     "StoredSteering",
     "evolve",
+    "fall_in_words",
     "genome_of",
 ]

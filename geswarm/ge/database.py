@@ -47,7 +47,11 @@ PRAGMA user_version = {SCHEMA_VERSION};
 """
 _HEADER = 100  # bytes; format of the file: sqlite.org/fileformat.html, section 1.3
 _MAGIC = b"SQLite format 3\0"
+_TOUCH = "SELECT 1 FROM run"
+_BESIDE = ("-wal", "-shm", "-journal")  # SQLite's own files beside a database
 
+OWN_FILES = tuple(f"run.db{suffix}" for suffix in (*_BESIDE, ""))
+"""What a database consists of, itself last."""
 
 _MISREAD = (ValueError, KeyError, TypeError, OverflowError, RecursionError)
 """What reading a value raises that is not what should be there."""
@@ -60,17 +64,31 @@ class StoreError(OSError):
 def create(path: Path, config: str) -> None:
     """Make the database of a run that has not begun; it is there as a whole or not at all."""
     partial = path.with_name(path.name + ".part")
-    partial.unlink(missing_ok=True)
+    _remove(partial)
     try:
-        with closing(connect(partial, "rwc")) as connection:
-            connection.execute("PRAGMA journal_mode = WAL")
-            connection.executescript(_SCHEMA)
-            connection.execute("INSERT INTO run VALUES (?)", (config,))
-            connection.execute("COMMIT")
+        try:
+            _make(partial, config, "WAL")
+        except sqlite3.OperationalError:  # this file system cannot share memory
+            _remove(partial)
+            _make(partial, config, "DELETE")
         partial.rename(path)
     except BaseException:
-        partial.unlink(missing_ok=True)
+        _remove(partial)
         raise
+
+
+def _make(path: Path, config: str, journal: str) -> None:
+    """Make a database with a write-ahead log (WAL), or with a rollback journal (DELETE)."""
+    with closing(connect(path, "rwc")) as connection:
+        connection.execute(f"PRAGMA journal_mode = {journal}")
+        connection.executescript(_SCHEMA)
+        connection.execute("INSERT INTO run VALUES (?)", (config,))
+        connection.execute("COMMIT")
+
+
+def _remove(path: Path) -> None:
+    for suffix in ("", *_BESIDE):
+        path.with_name(path.name + suffix).unlink(missing_ok=True)
 
 
 def connect(path: Path, mode: str) -> sqlite3.Connection:
@@ -84,18 +102,36 @@ def connect(path: Path, mode: str) -> sqlite3.Connection:
 
 
 def connect_to_write(path: Path) -> sqlite3.Connection:
-    """Connect to a database that is there."""
-    return connect(path, "rw")
+    """Connect to a database that is there.
+
+    What a killed writer left is completed. A run that was begun with a write-ahead log, and was
+    brought where that cannot be, goes on with a rollback journal.
+    """
+    connection = connect(path, "rw")
+    try:
+        connection.execute(_TOUCH).fetchall()
+    except sqlite3.OperationalError:
+        connection.close()
+        connection = connect(path, "rw")
+        connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # a log of one needs no shared memory
+        connection.execute("PRAGMA journal_mode = DELETE")
+        connection.execute("PRAGMA locking_mode = NORMAL")
+        connection.execute(_TOUCH).fetchall()  # gives the lock back
+    return connection
 
 
 def connect_to_read(path: Path) -> sqlite3.Connection:
-    """Connect to a database that is only read, also where nothing can be written beside it."""
+    """Connect to a database that is only read, also where nothing can be written beside it.
+
+    Raises:
+        sqlite3.OperationalError: Only `connect_to_write` can make it whole: a writer was killed.
+    """
     connection = connect(path, "ro")
     try:
-        connection.execute("SELECT 1 FROM run").fetchall()
+        connection.execute(_TOUCH).fetchall()
     except sqlite3.OperationalError:
         connection.close()
-        if path.with_name(path.name + "-wal").exists():
+        if any(path.with_name(path.name + suffix).exists() for suffix in ("-wal", "-journal")):
             raise  # the latest generations are in there
         connection = connect(path, "ro&immutable=1")
     return connection
@@ -116,12 +152,30 @@ def require_run(path: Path) -> None:
         raise StoreError(f"{path}: expected a GESwarm run, found another kind of database")
 
 
-def checked_config(connection: sqlite3.Connection, path: Path) -> str:
-    """The config text of a run whose database is whole.
+def read_config(path: Path, read_only: bool) -> str:
+    """The config text of a run, after a look at the whole database.
+
+    Args:
+        path: Of the database.
+        read_only: Complete nothing that a killed writer left.
 
     Raises:
         StoreError: It is damaged, or of a newer version.
     """
+    try:
+        connection = connect_to_read(path)
+    except sqlite3.OperationalError as error:
+        if read_only:
+            raise StoreError(
+                f"{path}: cannot be read now: {error}; if the process that wrote it was killed, "
+                "resume the run, which completes it"
+            ) from error
+        connection = connect_to_write(path)
+    with closing(connection):
+        return _checked_config(connection, path)
+
+
+def _checked_config(connection: sqlite3.Connection, path: Path) -> str:
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     if version > SCHEMA_VERSION:
         raise StoreError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
 
 
@@ -38,3 +39,16 @@ class GenerationRecord:
         """The values in ten digits, seconds in milliseconds, without the end of the line."""
         *numbers, seconds = astuple(self)
         return ",".join([*(format(number, ".10g") for number in numbers), f"{seconds:.3f}"])
+
+
+def fall_in_words(best_so_far: Sequence[float]) -> str:
+    """A word wherever the best so far is less than it was: the best was evaluated again.
+
+    Args:
+        best_so_far: Of every generation so far, one at least.
+
+    Returns:
+        For example `re-evaluated: 131.2 → 129.8`; empty if it has never been more than it is.
+    """
+    highest, last = (f"{value:.1f}" for value in (max(best_so_far), best_so_far[-1]))
+    return "" if highest == last else f"re-evaluated: {highest} → {last}"

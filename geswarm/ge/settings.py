@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from difflib import get_close_matches
 from typing import Any
 
 PRESETS: dict[str, dict[str, Any]] = {
@@ -128,7 +130,19 @@ class Settings:
         """
         if name not in PRESETS:
             raise SettingsError([f"preset: expected {_either(PRESETS)}, got {name!r}"])
-        return cls(**{**PRESETS[name], **_known(changes, [field.name for field in fields(cls)])})
+        return cls.of(**{**PRESETS[name], **changes})
+
+    @classmethod
+    def of(cls, **values: Any) -> Settings:
+        """The settings with these values, the others as the paper's.
+
+        Raises:
+            SettingsError: There is no such setting, or a value cannot be used.
+        """
+        names = [field.name for field in fields(cls)]
+        if unknown := [name for name in values if name not in names]:
+            raise SettingsError([_unknown(name, names) for name in unknown])
+        return cls(**values)
 
     def steered(self, **changes: Any) -> Settings:
         """These settings with changes that are allowed between generations: `STEERABLE`.
@@ -136,7 +150,9 @@ class Settings:
         Raises:
             SettingsError: Something else is to be changed, or a value cannot be used.
         """
-        return replace(self, **_known(changes, STEERABLE))
+        if wrong := [name for name in changes if name not in STEERABLE]:
+            raise SettingsError([f"{name}: expected {_either(STEERABLE)}" for name in wrong])
+        return replace(self, **changes)
 
     @property
     def steerable(self) -> dict[str, float]:
@@ -174,12 +190,10 @@ class Settings:
         return f"{name}: expected {_either(allowed)}, got {value!r}"
 
 
-def _known(changes: dict[str, Any], names: Any) -> dict[str, Any]:
-    """The changes, if all of them are of settings with these names."""
-    unknown = [name for name in changes if name not in names]
-    if unknown:
-        raise SettingsError([f"{name}: expected {_either(names)}" for name in unknown])
-    return changes
+def _unknown(name: str, names: Sequence[str]) -> str:
+    near = get_close_matches(name, names, 1)
+    hint = f"did you mean {near[0]!r}?" if near else f"expected {_either(names)}"
+    return f"unknown setting {name!r}; {hint}"
 
 
 def _either(names: Any) -> str:

@@ -1,9 +1,9 @@
 """The directory of a run: everything needed to look at it and to continue it exactly.
 
-`run.db` (SQLite, write-ahead log) is the truth: one transaction per generation writes its row and
-the checkpoint, so a run that is killed at any moment continues from its last complete generation,
-and others can read it while it is written. `config.yaml` and `history.csv` are copies for people
-and are rebuilt from it.
+`run.db` (SQLite; a write-ahead log where the file system can share memory) is the truth: one
+transaction per generation writes its row and the checkpoint, so a run that is killed at any moment
+continues from its last complete generation, and others can read it while one process writes it.
+`config.yaml` and `history.csv` are copies for people and are rebuilt from it.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ import json
 import sqlite3
 import threading
 from collections.abc import Sequence
-from contextlib import closing
+from contextlib import ExitStack, closing
 from dataclasses import astuple, dataclass
 from math import isfinite
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from geswarm.ge import database, steering
+from geswarm.ge import database, locks, steering
 from geswarm.ge.database import StoreError, kind_errors
 from geswarm.ge.engine import State
 from geswarm.ge.individual import Birth, Individual
@@ -87,13 +87,18 @@ class RunStore:
 
     Attributes:
         directory: The run directory.
-        config: The text of `config.yaml`, as given when the run was created.
+        config: The text of `config.yaml`, as given when the run was created or changed since.
+        config_differed: The file `config.yaml` said something else when the run was opened.
     """
 
-    def __init__(self, directory: Path, connection: sqlite3.Connection, config: str) -> None:
+    def __init__(
+        self, directory: Path, connection: sqlite3.Connection, config: str, resources: ExitStack
+    ) -> None:
         self.directory = directory
         self.config = config
+        self.config_differed = False
         self._connection = connection
+        self._resources = resources  # closed with the store: its connection and its claim
         self._lock = threading.Lock()
 
     @classmethod
@@ -108,16 +113,22 @@ class RunStore:
             StoreError: The directory holds a run already, or cannot be written.
         """
         directory = Path(directory)
-        with kind_errors(directory, "cannot begin a run here"):
+        with (
+            kind_errors(directory, "cannot begin a run here"),
+            locks.new_directory(directory),
+            ExitStack() as resources,
+        ):
+            claim = locks.Claim(directory)
+            resources.callback(claim.give_up)
             for name in ("run.db", "config.yaml", "history.csv"):
                 if (directory / name).exists():
                     raise StoreError(
                         f"{directory}: expected a directory without a run, found {name}; "
                         "choose another one, or resume this run"
                     )
-            directory.mkdir(parents=True, exist_ok=True)
+            locks.require_locks(directory)
             database.create(directory / "run.db", config)
-        return cls.open(directory)
+            return cls._open(directory, False, resources)
 
     @classmethod
     def open(cls, directory: str | Path, read_only: bool = False) -> RunStore:
@@ -126,25 +137,47 @@ class RunStore:
         Nothing is changed in a file that is not a run of this or an earlier version.
 
         Raises:
-            StoreError: There is no run, or it is damaged, foreign, or of a newer version.
+            StoreError: There is no run, or it is damaged, foreign, or of a newer version; or it is
+                to be continued and another process is at work on it.
         """
         directory = Path(directory)
-        path = directory / "run.db"
-        with kind_errors(directory, "cannot open this run"):
-            if not path.is_file():
+        with kind_errors(directory, "cannot open this run"), ExitStack() as resources:
+            if not (directory / "run.db").is_file():
                 raise StoreError(f"{directory}: expected a run directory, found no run.db in it")
-            database.require_run(path)
-            with closing(database.connect_to_read(path)) as connection:
-                config = database.checked_config(connection, path)
-            connect = database.connect_to_read if read_only else database.connect_to_write
-            store = cls(directory, connect(path), config)
+            database.require_run(directory / "run.db")
             if not read_only:
-                try:
-                    store._rebuild_copies()
-                except BaseException:
-                    store.close()
-                    raise
+                claim = locks.Claim(directory)
+                resources.callback(claim.give_up)
+                locks.require_locks(directory)
+            return cls._open(directory, read_only, resources)
+
+    @classmethod
+    def _open(cls, directory: Path, read_only: bool, resources: ExitStack) -> RunStore:
+        """Open it once nothing stands in the way; the store takes the resources over."""
+        path = directory / "run.db"
+        config = database.read_config(path, read_only)
+        connect = database.connect_to_read if read_only else database.connect_to_write
+        connection = resources.enter_context(closing(connect(path)))
+        store = cls(directory, connection, config, resources.pop_all())
+        if not read_only:
+            try:
+                store._rebuild_copies()
+            except BaseException:
+                store.close()
+                raise
         return store
+
+    def change_config(self, config: str) -> None:
+        """Commit another text of `config.yaml`.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        with kind_errors(self.directory, "cannot change its configuration"), self._lock:
+            with database.transaction(self._connection) as connection:
+                connection.execute("UPDATE run SET config = ?", (config,))
+            self.config = config
+            _write_atomically(self.directory / "config.yaml", config)
 
     def append(
         self,
@@ -246,7 +279,7 @@ class RunStore:
     def close(self) -> None:
         """Close the database; the store cannot be used any more."""
         with self._lock:
-            self._connection.close()
+            self._resources.close()
 
     def __enter__(self) -> RunStore:
         return self
@@ -282,9 +315,20 @@ class RunStore:
 
     def _rebuild_copies(self) -> None:
         """Write config.yaml and history.csv anew from the database."""
+        path = self.directory / "config.yaml"
+        self.config_differed = _says_something_else(path, self.config)
         lines = [GenerationRecord.csv_header(), *(row.csv_row() for row in self.history())]
-        _write_atomically(self.directory / "config.yaml", self.config)
+        _write_atomically(path, self.config)
         _write_atomically(self.directory / "history.csv", "".join(f"{row}\n" for row in lines))
+
+
+def _says_something_else(path: Path, text: str) -> bool:
+    """A file is there and holds another text, whatever its ends of lines."""
+    if path.is_symlink() or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        found = file.read(2 * len(text.encode()) + 1)
+    return found.replace(b"\r\n", b"\n") != text.encode()
 
 
 def _write_atomically(path: Path, text: str) -> None:

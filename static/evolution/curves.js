@@ -1,4 +1,7 @@
-/** The fitness curves of the run looked at and of those it is compared with. */
+/**
+ * The fitness curves of the run looked at and of those that are compared: each of these has the colour of
+ * its box and goes by the name of the run, the one looked at as well.
+ */
 
 import { h, identify } from "../common/dom.js";
 import { COLOURS, Chart, swatch } from "../common/chart.js";
@@ -31,24 +34,32 @@ export class Curves {
   #draw() {
     const own = this.#own;
     const x = own?.generation ?? [];
-    const others = this.#others
-      .map((other, i) => ({ ...other, colour: COLOURS[i] }))
-      .filter(({ name, generation }) => name !== own?.run && generation.length)
-      .map(({ name, generation, best_so_far: y, colour }) => ({ label: name, kind: "other", colour, x: generation, y }));
+    const ticked = this.#others.find(({ name }) => name === own?.run);
+    const named = ticked && { label: labelOf(ticked), colour: COLOURS[ticked.colour] };
     const lines = x.length
       ? [
-          { label: "best so far", kind: "best-so-far", x, y: own.best_so_far },
+          { label: bestWords(own.reevaluated), kind: "best-so-far", x, y: own.best_so_far, ...named },
           { label: "best of generation", kind: "best", x, y: own.best },
           { label: "mean", kind: "mean", x, y: own.mean },
         ]
       : [];
-    lines.push(...others);
+    const others = this.#others.filter(({ name, generation }) => name !== own?.run && generation.length);
+    lines.push(...others.map(otherLine));
     this.node.hidden = lines.length === 0;
     const levels = (own?.references ?? []).map(({ name, mean }) => ({ label: name, y: mean }));
     levels.sort((a, b) => b.y - a.y);
     this.chart.show({ lines, levels, marks: together(own?.marks ?? []) });
     this.legend.replaceChildren(...lines.map((line) => h("span", {}, swatch(line), line.label)));
   }
+}
+
+/** @param {boolean} reevaluated @returns {string} What the curve of the best is, which can fall then. */
+const bestWords = (reevaluated) => (reevaluated ? "best, re-evaluated" : "best so far");
+
+const labelOf = ({ name, reevaluated }) => `${name}, ${bestWords(reevaluated)}`;
+
+function otherLine(other) {
+  return { label: labelOf(other), kind: "other", colour: COLOURS[other.colour], x: other.generation, y: other.best_so_far };
 }
 
 /** One mark for all that was done before a generation. */

@@ -22,7 +22,7 @@ export class Header {
   /**
    * @param {Element} root
    * @param {(message: object) => boolean} send
-   * @param {(name: string) => void} resume
+   * @param {(name: string, generations: ?number) => void} resume
    * @param {...Element} below Shown under the title.
    */
   constructor(root, send, resume, ...below) {
@@ -33,17 +33,19 @@ export class Header {
     };
     this.pause = button("pause", "Pause", () => send({ type: this.status.phase === "PAUSED" ? "go_on" : "pause" }));
     this.stop = button("stop", "Stop", () => send({ type: "stop" }));
-    this.resume = button("resume", "Resume", () => resume(this.status.run));
-    this.best = button("load-best", "Load best", () => send({ type: "load_best" }), icon("save"));
+    this.resume = button("resume", "Resume", () => resume(this.status.shown, this.until.value));
+    this.until = new Until();
+    this.best = button("load-best", "Load the best", () => send({ type: "load_best" }), icon("save"));
     this.back = button("back", "Back to the present run", () => send({ type: "open", name: this.status.run }));
     this.name = h("span", { class: "name", "data-testid": "run" });
     this.about = h("span", { class: "origin", "data-testid": "about" });
-    const actions = h("div", { class: "actions" }, this.pause, this.stop, this.resume, this.best);
+    const actions = h("div", { class: "actions" }, this.pause, this.stop, this.until.node, this.resume, this.best);
     const title = h("div", { class: "title" }, this.name, this.about);
     this.progress = h("progress", { "aria-label": "Generations done", max: 1, value: 0 });
     this.line = h("div", { class: "status-line", role: "status", "data-testid": "status" });
+    this.remarks = h("p", { class: "note", hidden: true, "data-testid": "remarks" });
     this.error = h("div", { class: "failure", role: "alert", hidden: true, "data-testid": "failure" });
-    root.append(h("div", { class: "title-bar" }, title, actions), this.progress, this.line, this.error, this.back, ...below);
+    root.append(h("div", { class: "title-bar" }, title, actions), this.progress, this.line, this.remarks, this.error, this.back, ...below);
   }
 
   /** @param {import("./protocol.js").StatusMessage} status */
@@ -55,7 +57,9 @@ export class Header {
     this.about.textContent = about ? aboutWords(about) : "";
     this.pause.hidden = this.stop.hidden = !active;
     this.pause.textContent = status.phase === "PAUSED" ? "Go on" : "Pause";
-    this.resume.hidden = !(own && status.resumable);
+    this.resume.hidden = !status.resumable;
+    this.until.show(status);
+    this.best.title = `The best of ${shown}, into the table and the arena`;
     this.best.hidden = about?.best === null || about?.best === undefined;
     this.back.hidden = !active || own;
     const done = own && active ? status.done : (about?.done ?? 0);
@@ -64,15 +68,43 @@ export class Header {
     this.progress.max = generations || 1;
     this.progress.value = done;
     this.line.textContent = own || !shown ? ownLine(status, done, generations) : keptLine(about);
+    this.remarks.textContent = own ? status.remarks.join(" ") : "";
+    this.remarks.hidden = !this.remarks.textContent;
     const problem = own && status.phase === "FAILED" ? `Evolution failed: ${status.error}` : status.problem;
     this.error.textContent = problem;
     this.error.hidden = !problem;
   }
 }
 
-function aboutWords({ scenario, preset, seed, frozen }) {
+/** How many generations a run is to have when it is resumed. */
+class Until {
+  #name = null;
+
+  constructor() {
+    this.input = h("input", { type: "number", min: 1, step: 1, class: "until", oninput: () => (this.typed = true) });
+    identify(this.input, "resume-generations", "Generations to resume it to");
+    this.node = h("label", { hidden: true, title: "How many generations it is to have in all" }, "to", this.input);
+    this.typed = false;
+  }
+
+  /** Nothing that is being typed is overwritten. */
+  show({ resumable, shown, about }) {
+    this.node.hidden = !resumable || !about;
+    if (this.node.hidden || shown !== this.#name) this.typed = false;
+    this.#name = shown;
+    if (about && !this.typed) this.input.value = about.finished ? 2 * about.done : about.generations;
+  }
+
+  /** @returns {?number} Nothing: as many as it was to have. */
+  get value() {
+    return this.node.hidden || this.input.value === "" ? null : Number(this.input.value);
+  }
+}
+
+function aboutWords({ scenario, preset, seed, frozen, version }) {
   const parts = [`scenario ${scenario}`, presetWords(preset), `seed ${seed}`];
   if (frozen) parts.push(frozen === 1 ? "1 rule frozen" : `${frozen} rules frozen`);
+  if (version) parts.push(`begun with GESwarm ${version}`);
   return parts.join(" · ");
 }
 
@@ -90,5 +122,5 @@ function keptLine(about) {
 
 function figures(about) {
   if (typeof about?.best !== "number") return "";
-  return ` · best ${decimal(about.best)}, mean ${decimal(about.mean)}`;
+  return ` · best ${decimal(about.best)}${about.fall && ` (${about.fall})`}, mean ${decimal(about.mean)}`;
 }

@@ -18,7 +18,7 @@ const IN_VIEW = 1000; // ms between two words that this page is in view
 
 const element = (id) => document.getElementById(id);
 const notices = new Notices(element("notices"));
-const [PLAN, STEER] = [0, 1];
+const STEER = 1;
 let status = null;
 
 /** With what is asked for, errors about what was asked for before are of no interest. */
@@ -29,7 +29,8 @@ function send(message) {
   return sent;
 }
 
-const resume = (name) => insteadOf(status, (instead) => send({ type: "resume", name, instead }));
+const resume = (name, generations = null) =>
+  insteadOf(status, (instead) => send({ type: "resume", name, generations, instead }));
 const curves = new Curves();
 const form = new Form(element("plan"), send, () => tabs.show(STEER));
 const steer = new Steer(element("steer"), send);
@@ -55,7 +56,8 @@ const handlers = {
   },
   plan: (message) => form.update(message),
   status(message) {
-    if (status === null) tabs.show(message.active ? STEER : PLAN);
+    const untouched = status === null && document.body.dataset.tab === "plan";
+    if (untouched && message.active) tabs.show(STEER);
     status = form.status = message;
     header.update(message);
     steer.update(message);

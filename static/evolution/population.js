@@ -1,6 +1,5 @@
 /** The population of the last generation: how good, how big, how different, and everybody in it. */
 
-import { COLOURS } from "../common/chart.js";
 import { h, identify, svg } from "../common/dom.js";
 import { decimal } from "../common/figures.js";
 import { Rows } from "./rows.js";
@@ -38,7 +37,7 @@ export class Population {
     if (message.size === 0) return;
     this.#summarise(message);
     if (held) return;
-    const colours = colourOf(message);
+    const colours = new Map(message.coloured.map(([number, , colour]) => [number, colour]));
     this.rows.show(message.members, (member, i) => cells(member, i, colours));
     this.rows.mark(this.#chosen);
     const more = message.size - message.members.length;
@@ -51,7 +50,7 @@ export class Population {
     this.rows.mark(individual);
   }
 
-  #summarise({ generation, size, invalid, behaviours, diversity, common, fitness, codons }) {
+  #summarise({ generation, size, invalid, behaviours, diversity, coloured, fitness, codons }) {
     const valid = invalid ? `${invalid} invalid` : "all valid";
     this.tiles.replaceChildren(
       tile("size", String(size), `individuals of generation ${generation}, ${valid}`),
@@ -60,8 +59,8 @@ export class Population {
       plot("fitness", "fitness", fitness),
       plot("codons", "size in codons", codons, 0),
     );
-    const rest = size - invalid - common.reduce((sum, [, count]) => sum + count, 0);
-    const parts = common.map(([number, count], i) => share(count, COLOURS[i], `behaviour ${number + 1}: ${count}`));
+    const rest = size - invalid - coloured.reduce((sum, [, count]) => sum + count, 0);
+    const parts = coloured.map(([number, count, colour]) => share(count, colour, `behaviour ${number}: ${count}`));
     if (rest > 0) parts.push(share(rest, "", `other behaviours: ${rest}`));
     this.shares.replaceChildren(...parts);
   }
@@ -73,22 +72,17 @@ const COLUMNS = {
   "Eval.": "How often it was evaluated",
   Codons: "Length of its genome",
   Rules: "How many rules it has",
-  "Behav.": "Individuals with the same number decide the same in every situation; common ones have a colour",
+  "Behav.": "Individuals with the same number decide the same in every situation; common ones have a colour. A behaviour keeps both for as long as anybody has it",
   Bred: "Generation in which it was bred",
 };
 const BEHAVIOURS = "Individuals whose robots decide the same in every situation have one behaviour";
 const DIVERSITY = "As many equally frequent behaviours would be as diverse (exp of Shannon's entropy)";
 
 /** The common behaviours have colours, the others are grey. */
-function colourOf({ common }) {
-  const colours = new Map(common.map(([number], i) => [number, COLOURS[i]]));
-  return (behaviour) => colours.get(behaviour) ?? "";
-}
-
-function cells([generation, , fitness, told, codons, rules, behaviour], i, colourOf) {
-  const lamp = h("span", { class: "patch", "aria-hidden": "true" });
-  if (colourOf(behaviour)) lamp.style.setProperty("--patch", colourOf(behaviour));
-  const number = behaviour === null ? ["invalid"] : [lamp, String(behaviour + 1)];
+function cells([generation, , fitness, told, codons, rules, behaviour], i, colours) {
+  const patch = h("span", { class: "patch", "aria-hidden": "true" });
+  if (colours.has(behaviour)) patch.style.setProperty("--patch", colours.get(behaviour));
+  const number = behaviour === null ? ["invalid"] : [patch, String(behaviour)];
   return [String(i + 1), decimal(fitness), `${told}×`, String(codons), rules === null ? "–" : String(rules), number, String(generation)];
 }
 

@@ -1,5 +1,5 @@
 /**
- * The messages between the page and Python, as types. Rules and individuals count from 0.
+ * The messages between the page and Python, as types. Rules, individuals and colours count from 0, behaviours from 1.
  *
  * @typedef {"IDLE" | "RUNNING" | "PAUSED" | "STOPPED" | "FINISHED" | "FAILED"} Phase
  * @typedef {{name: string, changed: string[]}} Preset The nearest one, and where settings differ.
@@ -39,7 +39,9 @@
  * @property {number} generations
  * @property {number} done
  * @property {boolean} finished
+ * @property {?string} version Of the GESwarm that began it, if that is another one.
  * @property {?number} best
+ * @property {string} fall Where the best so far is less than it was: a word for it.
  * @property {?number} mean
  *
  * @typedef {object} StatusMessage
@@ -48,7 +50,8 @@
  * @property {boolean} active
  * @property {string} error
  * @property {?string} run The present or last one.
- * @property {boolean} resumable
+ * @property {string[]} remarks What there is to know of the present run.
+ * @property {boolean} resumable The run looked at can go on.
  * @property {number} done
  * @property {number} generations
  * @property {?string} shown The run looked at.
@@ -60,6 +63,7 @@
  * @typedef {object} CurvesMessage
  * @property {"curves"} type
  * @property {?string} run
+ * @property {boolean} reevaluated Its best is evaluated again and again, so that its curve can fall.
  * @property {number[]} generation
  * @property {number[]} best_so_far
  * @property {number[]} best
@@ -67,7 +71,12 @@
  * @property {{name: string, mean: number}[]} references
  * @property {{generation: number, text: string, fitness: ?number}[]} marks
  *
- * @typedef {{name: string, generation: number[], best_so_far: number[]}} OtherCurve
+ * @typedef {object} OtherCurve
+ * @property {string} name
+ * @property {number} colour
+ * @property {boolean} reevaluated
+ * @property {number[]} generation
+ * @property {number[]} best_so_far
  * @typedef {{type: "compared", runs: OtherCurve[]}} ComparedMessage
  *
  * @typedef {{low: number, high: number, mean: number, counts: number[]}} Histogram
@@ -81,7 +90,7 @@
  * @property {number} invalid
  * @property {number} behaviours
  * @property {number} diversity
- * @property {[number, number][]} common Behaviours that most have, and how many have them.
+ * @property {[number, number, string][]} coloured Common behaviours: number, how many have it, colour.
  * @property {Histogram} fitness
  * @property {Histogram} codons
  * @property {Member[]} members The best first.
@@ -102,9 +111,12 @@
  * @property {?number} generations
  * @property {?number} best
  * @property {Phase} phase
+ * @property {string} fall As in `About`.
+ * @property {?number} colour Of its curve and its box, if it is compared.
+ * @property {boolean} elsewhere It is under way in another process.
  * @property {number} written Seconds since 1970.
  *
- * @typedef {{type: "runs", compared: string[], runs: Run[]}} RunsMessage
+ * @typedef {{type: "runs", runs: Run[]}} RunsMessage
  *
  * @typedef {object} ChosenMessage
  * @property {"chosen"} type

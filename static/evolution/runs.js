@@ -27,8 +27,9 @@ export class Runs {
   }
 
   /** @param {import("./protocol.js").RunsMessage} message */
-  update({ compared, runs }) {
+  update({ runs }) {
     this.note.textContent = runs.length ? "Tick runs to lay their curves over one another." : "No runs are kept here yet: every evolution that is started will be.";
+    const full = runs.filter(({ colour }) => colour !== null).length >= this.most;
     const names = new Set(runs.map((run) => run.name));
     for (const [name, item] of this.#items) {
       if (names.has(name)) continue;
@@ -39,8 +40,7 @@ export class Runs {
       const item = this.#items.get(run.name) ?? new RunItem(run.name, this.send, this.resume);
       this.#items.set(run.name, item);
       if (this.list.children[i] !== item.node) this.list.insertBefore(item.node, this.list.children[i] ?? null);
-      const at = compared.indexOf(run.name);
-      item.update(run, at, compared.length >= this.most && at < 0, i);
+      item.update(run, full && run.colour === null, i);
     });
     this.#markShown();
   }
@@ -73,33 +73,34 @@ class RunItem {
 
   /**
    * @param {import("./protocol.js").Run} run
-   * @param {number} at Its place among the compared, -1 if it is none.
    * @param {boolean} full No more can be compared.
    * @param {number} i
    */
-  update(run, at, full, i) {
+  update(run, full, i) {
     const number = i + 1;
     this.node.dataset.testid = `run-${number}`;
     identify(this.box, `compare-${number}`, `Compare ${run.name}`);
     identify(this.open, `open-${number}`);
     identify(this.go, `resume-${number}`, `Resume ${run.name}`);
     identify(this.remove, `delete-${number}`, `Delete ${run.name}`);
-    this.box.checked = at >= 0;
-    this.box.disabled = Boolean(run.problem) || full;
-    this.box.style.setProperty("accent-color", at >= 0 ? COLOURS[at] : "auto");
-    const active = run.phase === "RUNNING" || run.phase === "PAUSED";
+    const compared = run.colour !== null;
+    this.box.checked = compared;
+    this.box.disabled = !compared && (Boolean(run.problem) || full);
+    this.box.style.setProperty("accent-color", compared ? COLOURS[run.colour] : "auto");
+    const active = run.elsewhere || run.phase === "RUNNING" || run.phase === "PAUSED";
     this.open.disabled = Boolean(run.problem);
     this.details.replaceChildren(...(run.problem ? [icon("warning"), run.problem] : [detailWords(run)]));
     this.details.classList.toggle("problem", Boolean(run.problem));
     this.best.textContent = run.best === null ? "" : `best ${decimal(run.best)}`;
-    this.state.textContent = STATES[run.phase];
+    this.state.textContent = run.elsewhere ? "under way elsewhere" : STATES[run.phase];
     this.state.className = `run-state ${run.phase.toLowerCase()}`;
-    this.go.hidden = run.phase !== "STOPPED";
+    this.go.hidden = run.elsewhere || run.phase !== "STOPPED";
     this.remove.disabled = active;
   }
 }
 
-function detailWords({ scenario, preset, seed, done, generations, written }) {
+function detailWords({ scenario, preset, seed, done, generations, fall, written }) {
   const day = new Date(1000 * written).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
-  return [`scenario ${scenario}`, presetWords(preset), `seed ${seed}`, `${done} of ${generations} generations`, day].join(" · ");
+  const parts = [`scenario ${scenario}`, presetWords(preset), `seed ${seed}`, `${done} of ${generations} generations`, fall, day];
+  return parts.filter(Boolean).join(" · ");
 }

@@ -262,3 +262,92 @@ def test_a_failed_evolution_is_shown_and_resumed(page, served, monkeypatch):
     page.get_by_test_id("resume").click()
     expect(page.get_by_test_id("status")).to_contain_text("Generation 3 of 3 · finished")
     expect(failure).to_be_hidden()
+
+
+def colour_of(node, name):
+    return node.evaluate("(node, name) => getComputedStyle(node)[name]", name)
+
+
+def test_box_curve_and_name_of_a_compared_run_agree(page, served):
+    names = [served.finish(seed=seed) for seed in (1, 2, 3)]
+    tab(page, "runs")
+
+    def agree(*compared):
+        """Every run that is ticked, and no other, has a curve in the colour of its box."""
+        legend = page.get_by_test_id("curves-legend").locator("span")
+        expect(legend.filter(has_text="seed")).to_have_count(len(compared))
+        colours = {}
+        for name in names:
+            box = page.get_by_label(f"Compare {name}")
+            expect(box).to_be_checked(checked=name in compared)
+            if name in compared:
+                (entry,) = legend.filter(has_text=name).all()
+                colours[name] = colour_of(entry.locator("i"), "backgroundColor")
+                expect(box).to_have_css("accent-color", colours[name])
+        drawn = [colour_of(line, "stroke") for line in page.locator(".chart path.line").all()]
+        assert set(colours.values()) <= set(drawn)
+        assert len(set(colours.values())) == len(compared)
+        return colours
+
+    first, second, third = names
+    for name in (first, second, third):
+        page.get_by_label(f"Compare {name}").click()
+    before = agree(first, second, third)
+    page.get_by_label(f"Compare {first}").click()
+    expect(page.get_by_test_id("curves-legend")).not_to_contain_text(first)
+    after = agree(second, third)
+    assert {name: before[name] for name in after} == after
+    page.get_by_role("button", name=second, exact=True).click()
+    expect(page.get_by_test_id("run")).to_have_text(second)
+    expect(page.get_by_test_id("about")).to_contain_text("seed 2")
+    assert agree(second, third) == after
+
+
+def test_a_run_that_was_reopened_is_resumed_to_another_end(page, served):
+    first, second = served.finish(seed=1), served.finish(seed=2)
+    tab(page, "runs")
+    expect(page.get_by_test_id("run")).to_have_text(second)
+    page.get_by_role("button", name=first, exact=True).click()
+    field = page.get_by_test_id("resume-generations")
+    expect(page.get_by_test_id("run")).to_have_text(first)
+    expect(page.get_by_test_id("about")).to_contain_text("seed 1")
+    expect(field).to_have_value("6")
+    field.click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.type("2")
+    page.get_by_test_id("resume").click()
+    expect(page.get_by_test_id("notice-error")).to_contain_text("3 generations are done")
+    expect(field).to_have_value("2")
+    field.click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.type("5")
+    page.get_by_test_id("resume").click()
+    expect(page.get_by_test_id("status")).to_contain_text("Generation 5 of 5 · finished")
+    expect(page.get_by_test_id("run")).to_have_text(first)
+    expect(field).to_have_value("10")
+    assert len(served.evolution.history) == 5
+
+
+def test_behaviours_keep_number_and_colour_from_generation_to_generation(page, served):
+    served.evolve(**{**ENDLESS, "population": 30, "mutation": 0.0, "crossover": 0.0})
+    tab(page, "population")
+    expect(page.get_by_test_id("tile-size")).to_contain_text("30")
+
+    def seen():
+        """Number and colour by behaviour, of one generation that is not the last one looked at."""
+        look = served.session.runs.look
+        labels = {one: (label.number, label.colour) for one, label in look.labels.items()}
+        return len(look.history), labels
+
+    before, labels = seen()
+    served.until(lambda: seen()[0] > before + 5)
+    _, later = seen()
+    stayed = labels.keys() & later.keys()
+    assert stayed
+    assert all(later[one] == labels[one] for one in stayed if labels[one][1] is not None)
+    page.get_by_test_id("pause").click()
+    expect(page.get_by_test_id("pause")).to_have_text("Go on")
+    bar = page.get_by_test_id("behaviours").evaluate(
+        "bar => [...bar.children].map((one) => getComputedStyle(one).backgroundColor)"
+    )
+    assert len(set(bar)) == len(bar) > 1

@@ -1,7 +1,6 @@
 """What the evolution page asks for and is told, without a socket."""
 
 import json
-import time
 from pathlib import Path
 
 import pytest
@@ -14,89 +13,16 @@ from geswarm.app.panels.evolution_messages import (
     how_bred,
     thinned,
 )
-from geswarm.app.panels.evolution_page import WATCHED_SECONDS, EvolutionPage
+from geswarm.app.panels.evolution_page import WATCHED_SECONDS
 from geswarm.app.panels.evolution_panel import begin, status_html
-from geswarm.app.state.evolution import EvolutionThread, Phase
+from geswarm.app.state.evolution import Phase
 from geswarm.app.state.rival import CHOSEN
 from geswarm.app.state.runs import MOST_COMPARED
-from geswarm.app.state.session import Session
 from geswarm.evolution import ForagingFitness
 from geswarm.ge import Settings, StoredIndividual
-from geswarm.rules import load_preset
-from geswarm.sim import load_scenario
-from tests.app.test_rule_page import Recorder
+from tests.app.evolution_talker import EVO8, talker_fixture
 
-EVO8 = load_preset("evo8")
-
-
-class Talker:
-    """An evolution page without a socket; `last` is what it was told last, by type."""
-
-    def __init__(self):
-        quick = load_scenario("paper").with_changes(duration=20.0)
-        self.session = Session(quick, EVO8, EvolutionThread(workers=1))
-        self.page = EvolutionPage(self.session)
-        self._receive, self._greet = self.page.channel.on_message, self.page.channel.on_connect
-        self.page.channel = Recorder()
-
-    @property
-    def evolution(self):
-        return self.session.evolution
-
-    def arrive(self):
-        self._greet("client")
-        self.session.frame(0.0, 1.0)
-
-    def say(self, kind, **message):
-        self._receive("client", {"type": kind, **message})
-        self.session.frame(0.0, 1.0)
-        self.page.sync(0.1)
-
-    def last(self, kind):
-        return self.page.channel.of(kind)[-1]
-
-    def until(self, condition, seconds=60):
-        end = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < end, "waited too long"
-            self.say("watch")
-            time.sleep(0.01)
-
-    def rest(self):
-        """Wait until the generation that was at work when the run was paused is done."""
-        done = -1
-        while done != len(self.evolution.history):
-            done = len(self.evolution.history)
-            time.sleep(0.5)
-
-    def plan(self, **values):
-        for name, value in values.items():
-            self.say("plan", name=name, value=value)
-
-    def evolve(self, **values):
-        """A whole small run; returns its name."""
-        self.plan(**{"population": 6, "generations": 3, "evaluations": 1, **values})
-        self.say("start", instead=False)
-        self.until(lambda: self.evolution.phase is Phase.FINISHED)
-        name = self.evolution.directory.name
-        self.until(lambda: self.run(name)["phase"] == "FINISHED")
-        self.until(lambda: self.last("status")["shown"] == name)
-        self.until(lambda: self.last("population")["generation"] == self.evolution.generations)
-        return name
-
-    def run(self, name):
-        """How a run is listed now."""
-        runs = {run["name"]: run for run in self.last("runs")["runs"]}
-        return runs.get(name, {"phase": None})
-
-
-@pytest.fixture
-def talker(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    talker = Talker()
-    talker.arrive()
-    yield talker
-    talker.session.close()
+__all__ = ["talker_fixture"]
 
 
 def test_a_page_that_arrives_is_told_everything(talker):
@@ -160,7 +86,7 @@ def test_the_panel_starts_the_same_plan(talker):
     begin(talker.session)
     assert talker.evolution.phase is Phase.IDLE
     findings = talker.session.runs.plan.findings(EVO8)
-    assert "what is wrong with: elitism" in status_html(talker.evolution, list(findings))
+    assert "what is wrong with: elitism" in status_html(talker.session.runs, list(findings))
     talker.plan(elitism=0.5)
     begin(talker.session)
     talker.until(lambda: talker.evolution.run is not None)
@@ -262,11 +188,12 @@ def test_runs_are_compared_opened_resumed_and_deleted(talker):
     assert talker.last("status")["about"]["seed"] == 1
     talker.until(lambda: len(talker.last("curves")["references"]) == 2)
     talker.say("resume", name=second)
-    assert "finished" in talker.last("notice")["text"]
+    assert "3 generations are done" in talker.last("notice")["text"]
     talker.say("delete", name=first)
     assert not Path("runs", first).exists()
     assert Path("runs", second).exists()
-    assert talker.last("runs")["compared"] == talker.last("compared")["runs"] == []
+    assert [run["colour"] for run in talker.last("runs")["runs"]] == [None]
+    assert talker.last("compared")["runs"] == []
     assert talker.last("status")["shown"] == second
     talker.say("delete", name=second)
     status = talker.last("status")

@@ -163,6 +163,57 @@ def test_a_directory_that_may_not_be_written_is_said(tmp_path, quick):
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
 
 
+def test_a_finished_run_goes_on_to_another_end(tmp_path, quick, capsys):
+    part, whole = tmp_path / "part", tmp_path / "whole"
+    assert main([*SMALL, *quick, "--generations", "6", "--out", str(whole)]) == 0
+    assert main([*SMALL, *quick, "--generations", "3", "--out", str(part)]) == 0
+    resume = ["--no-ui", "--resume", str(part)]
+    assert main([*resume, "--generations", "2"]) == 2
+    assert "generations: 3 are done, expected as many or more, got 2" in capsys.readouterr().err
+    assert main([*resume, "--generations", "6"]) == 0
+    assert outcome(part) == outcome(whole)
+    config = part / "config.yaml"
+    config.write_text(config.read_text().replace("generations: 6", "generations: 60"))
+    assert main(resume) == 0
+    assert "config.yaml had been changed; what counts is run.db" in capsys.readouterr().err
+    assert outcome(part) == outcome(whole)
+
+
+def test_a_run_that_another_process_writes_is_refused(tmp_path, quick, capsys):
+    out = tmp_path / "run"
+    common = [*SMALL, *quick, "--generations", "100000", "--out", str(out)]
+    process = command(*common)
+    while generations(out) < 3:
+        assert process.poll() is None
+        time.sleep(0.01)
+    assert main(["--no-ui", "--resume", str(out)]) == 2
+    assert main(common) == 2
+    assert capsys.readouterr().err.count("another process is at work on this run") == 2
+    done = generations(out)
+    while generations(out) < done + 3:
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    assert main(["--no-ui", "--resume", str(out), "--generations", str(generations(out) + 3)]) == 0
+
+
+def test_the_best_does_not_fall_without_a_word(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("geswarm.app.headless._LOG_SECONDS", 0.0)
+    scenario = tmp_path / "quick.yaml"
+    scenario.write_text("extends: paper\nduration: 300\n")
+    arguments = ["--preset", "modern", "--population", "20", "--generations", "20", "--seed", "2"]
+    out = tmp_path / "run"
+    assert main(["--no-ui", "--scenario", str(scenario), *arguments, "--out", str(out)]) == 0
+    best = [float(row.split(",")[1]) for row in rows(out)[1:]]
+    fell = [at for at, value in enumerate(best) if f"{value:.1f}" != f"{max(best[: at + 1]):.1f}"]
+    assert fell, "expected a seed with which the best falls"
+    said = capsys.readouterr().err
+    for at in fell:
+        words = f"re-evaluated: {max(best[: at + 1]):.1f} → {best[at]:.1f}"
+        assert f"generation {at + 1}: best {best[at]:.1f} ({words})" in said
+
+
 def test_presets(tmp_path, quick, capsys):
     out = tmp_path / "run"
     assert (

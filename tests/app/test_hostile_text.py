@@ -100,7 +100,7 @@ def test_widgets_of_the_dashboard(session, tmp_path):
     assert is_harmless(robot_html(session.world.state, 0, session.document.rule_set))
     session.evolution.phase, session.evolution.error = Phase.FAILED, EVIL
     session.evolution.directory = tmp_path / EVIL
-    assert is_harmless(status_html(session.evolution, [EVIL]))
+    assert is_harmless(status_html(session.runs, [EVIL]))
 
 
 @pytest.mark.browser

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from geswarm.app import palette
+from geswarm.app.state.behaviours import MOST_COLOURED
 from geswarm.rules.vocabulary import FORAGING
 
 # Machado, Oliveira and Fernandes 2009, severity 1: linear RGB as it is seen with the deficiency.
@@ -45,6 +46,19 @@ def seen(colour, vision):
 def test_colours_are_told_apart_with_any_colour_vision(vision):
     behaviours = [palette.behaviour_colour(code) for code in range(len(FORAGING.behaviours))]
     for one, other in itertools.combinations([*behaviours, palette.OBJECT], 2):
+        distance = np.linalg.norm(seen(one, vision) - seen(other, vision))
+        assert distance > CLEARLY_DIFFERENT, (one, other)
+
+
+@pytest.mark.parametrize("vision", VISION)
+def test_nothing_of_a_population_can_be_taken_for_an_led(vision):
+    assert len(palette.POPULATION) == MOST_COLOURED
+    leds = [palette.behaviour_colour(code) for code in range(len(FORAGING.behaviours))]
+    pairs = [
+        *itertools.product(palette.POPULATION, [*leds, palette.OBJECT]),
+        *itertools.combinations(palette.POPULATION, 2),
+    ]
+    for one, other in pairs:
         distance = np.linalg.norm(seen(one, vision) - seen(other, vision))
         assert distance > CLEARLY_DIFFERENT, (one, other)
 

@@ -1,12 +1,13 @@
 """What the session knows of the arena: hands in it, the rival, the scenario changed live."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from geswarm.app.state.evolution import EvolutionThread
-from geswarm.app.state.rival import BEFORE, BEST
+from geswarm.app.state.rival import BEFORE, best_of
 from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import World, load_scenario
@@ -124,12 +125,13 @@ def test_the_rival_follows_reset_seed_and_scenario(session):
 def test_only_what_there_is_can_be_compared_with(session):
     assert session.rivals_offered() == ("EVO 8", "Evolved", "Hand-coded")
     with pytest.raises(KeyError):
-        session.compare_with(BEST)
+        session.compare_with(best_of("run"))
     assert session.rival is None
     session.edit(HALF_P)
     assert BEFORE in session.rivals_offered()
     session.evolution.best = load_preset("hand-coded")
-    session.compare_with(BEST)
+    session.evolution.directory = Path("runs/mine")
+    session.compare_with("best of mine")
     assert session.rival.swarm.world.rule_set == load_preset("hand-coded")
 
 

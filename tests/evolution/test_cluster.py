@@ -2,7 +2,10 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
+import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
@@ -94,8 +97,88 @@ def test_no_scheduler_or_no_dask_is_one_clear_message(capsys, monkeypatch):
         raise ImportError(name)
 
     monkeypatch.setattr("geswarm.evolution.cluster.import_module", missing)
-    with pytest.raises(ClusterError, match="pip install 'geswarm"), cluster_executor("tcp://x"):
+    words = "pip install 'geswarm"
+    with pytest.raises(ClusterError, match=words), cluster_executor("tcp://x", print):
         pass
+
+
+@pytest.fixture
+def scheduler(monkeypatch):
+    """A Dask scheduler in this process that has no workers yet."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra: geswarm[cluster]")
+    monkeypatch.setattr("geswarm.evolution.cluster._LOOK_SECONDS", 0.1)
+    monkeypatch.setattr("geswarm.evolution.cluster._AGAIN_SECONDS", 0.3)
+    with distributed.LocalCluster(
+        n_workers=0, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        yield cluster
+
+
+class Heard(list):
+    """What was said; `wait` until something is said so often."""
+
+    def wait(self, words, times=1):
+        deadline = time.monotonic() + 60
+        while sum(words in one for one in self) < times:
+            assert time.monotonic() < deadline, f"not heard: {words}, but {self}"
+            time.sleep(0.02)
+
+
+def test_without_workers_it_says_so_again_and_again_and_uses_those_that_come(
+    tmp_path, expected, scheduler
+):
+    heard, found = Heard(), []
+    address = scheduler.scheduler_address
+    with cluster_executor(address, heard.append) as executor:
+        work = threading.Thread(
+            target=lambda: found.append(evolved(tmp_path / "run", executor=executor))
+        )
+        work.start()
+        heard.wait(f"no workers yet at {address}, waiting", times=3)
+        scheduler.scale(1)
+        work.join(60)
+    assert found == [expected]
+    assert heard[-1] == f"1 worker at {address}, going on"
+
+
+def test_a_scheduler_that_goes_away_ends_the_wait(tmp_path, scheduler):
+    heard, run = Heard(), EvolutionRun.create(CONFIG, tmp_path / "run")
+    with cluster_executor(scheduler.scheduler_address, heard.append) as executor:
+        end = threading.Thread(target=lambda: (heard.wait("no workers yet"), scheduler.close()))
+        end.start()
+        with pytest.raises(EvaluationError, match="the scheduler of the cluster is gone"):
+            run.run(executor=executor)
+        end.join(60)
+    run.close()
+
+
+WORKER = """
+import sys
+sys.modules["geswarm"] = None  # as if it were not installed
+from distributed.cli.dask_worker import main
+main()
+"""
+
+
+def test_a_worker_without_geswarm_is_an_error_and_lives(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=None) as cluster:
+        address = cluster.scheduler_address
+        options = ["--no-nanny", "--nthreads", "1", "--no-dashboard"]
+        worker = subprocess.Popen([sys.executable, "-c", WORKER, address, *options])
+        run = EvolutionRun.create(CONFIG, tmp_path / "run")
+        try:
+            words = "a worker cannot import what it needs, GESwarm .*: ModuleNotFoundError"
+            with (
+                cluster_executor(address, print) as executor,
+                pytest.raises(EvaluationError, match=words),
+            ):
+                run.run(executor=executor)
+            assert worker.poll() is None
+        finally:
+            run.close()
+            worker.kill()
+            worker.wait()
 
 
 @pytest.mark.slow
@@ -110,7 +193,7 @@ def test_a_dask_worker_that_is_killed_loses_nothing(tmp_path):
     cluster = distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     )
-    with cluster, cluster_executor(cluster.scheduler_address) as executor:
+    with cluster, cluster_executor(cluster.scheduler_address, print) as executor:
         victim = next(iter(cluster.workers.values())).pid
 
         def kill(record):

@@ -9,6 +9,7 @@ import pytest
 import yaml
 from hypothesis import given
 
+from geswarm import __version__
 from geswarm.evaluation import Evaluation, evaluate_rule_sets
 from geswarm.evolution import (
     Composition,
@@ -19,7 +20,7 @@ from geswarm.evolution import (
     RunConfigError,
     rule_grammar,
 )
-from geswarm.ge import Engine, Mapper, Settings, StoreError, genome_of
+from geswarm.ge import Engine, Mapper, Settings, SettingsError, StoreError, genome_of
 from geswarm.ge.ranking import CODON_COST
 from geswarm.rules import RuleSet, format_text, load_preset, load_rule_set, parse_text
 from geswarm.sim import load_scenario
@@ -111,6 +112,57 @@ def test_a_stopped_run_goes_on_exactly(tmp_path, generations_before):
     assert (part.directory / "best.yaml").exists()
 
 
+@pytest.mark.parametrize("preset", ["paper", "modern"])
+def test_a_run_that_is_extended_is_the_one_that_was_longer_from_the_start(tmp_path, preset):
+    settings = Settings.preset(preset, population=12, generations=6, evaluations=2)
+    whole = EvolutionRun.create(RunConfig(QUICK, settings, seed=5), tmp_path / "whole")
+    whole.run()
+    short = RunConfig(QUICK, replace(settings, generations=3), seed=5)
+    part = EvolutionRun.create(short, tmp_path / "part")
+    assert part.run().finished
+    for run in (whole, part):
+        run.close()
+    longer = EvolutionRun.resume(part.directory, generations=6)
+    assert not longer.finished
+    longer.run()
+    longer.close()
+    assert rows(part.directory) == rows(whole.directory)
+    for name in ("config.yaml", "best.yaml"):
+        text = (whole.directory / name).read_text().replace(str(whole.directory), "")
+        assert (part.directory / name).read_text().replace(str(part.directory), "") == text
+
+
+def test_a_run_cannot_have_fewer_generations_than_are_done(tmp_path):
+    run = evolved(tmp_path / "run")
+    before = rows(run.directory)
+    for wrong in (3, 0, 10**9):
+        with pytest.raises(SettingsError, match=r"generations: .*expected"):
+            EvolutionRun.resume(run.directory, wrong)
+    same = EvolutionRun.resume(run.directory, 4)
+    assert same.finished
+    assert same.config == CONFIG
+    same.close()
+    assert rows(run.directory) == before
+
+
+def test_what_there_is_to_know_of_a_run_is_said_when_it_is_resumed(tmp_path):
+    began = replace(CONFIG, version="0.0.7")
+    EvolutionRun.create(began, tmp_path / "run").close()
+    config = tmp_path / "run" / "config.yaml"
+    config.write_text(config.read_text().replace("generations: 4", "generations: 400"))
+    run = EvolutionRun.resume(tmp_path / "run", 5)
+    version, edited = run.remarks
+    assert f"began with GESwarm 0.0.7 and goes on with {__version__}: results may" in version
+    assert "config.yaml had been changed; what counts is run.db" in edited
+    run.close()
+    assert "generations: 5" in config.read_text()
+    assert "geswarm: 0.0.7" in config.read_text()
+    again = EvolutionRun.resume(tmp_path / "run")
+    assert again.remarks == (version,)
+    again.close()
+    assert evolved(tmp_path / "own").remarks == ()
+
+
 def test_links_in_a_run_of_somebody_else_are_not_followed(tmp_path):
     directory, outside = tmp_path / "run", tmp_path / "outside"
     run = EvolutionRun.create(CONFIG, directory)
@@ -175,6 +227,15 @@ def test_config_round_trips_and_foreign_ones_are_refused(tmp_path):
             RunConfig.from_yaml(twice)
     with pytest.raises(StoreError, match=r"no run\.db"):
         EvolutionRun.resume(tmp_path)
+
+
+def test_an_unknown_setting_is_named_and_the_version_that_knew_it():
+    text = CONFIG.to_yaml().replace("parsimony", "parsimoni").replace(__version__, "0.0.7")
+    words = f"of GESwarm 0.0.7; this is {__version__}.*unknown setting 'parsimoni'; "
+    with pytest.raises(RunConfigError, match=f"{words}did you mean 'parsimony'"):
+        RunConfig.from_yaml(text)
+    with pytest.raises(RunConfigError, match="unknown: castes"):
+        RunConfig.from_yaml(f"{CONFIG.to_yaml()}castes: 2")
 
 
 MODERN = replace(CONFIG, settings=Settings.preset("modern", population=12, generations=4))

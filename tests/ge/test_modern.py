@@ -49,7 +49,7 @@ def test_presets_are_named():
     for name, message in (("fast", "preset: expected paper or modern, got 'fast'"),):
         with pytest.raises(SettingsError, match=message):
             Settings.preset(name)
-    with pytest.raises(SettingsError, match="colour: expected population or generations or"):
+    with pytest.raises(SettingsError, match="unknown setting 'colour'; expected population or"):
         Settings.preset("paper", colour=1)
     with pytest.raises(SettingsError) as caught:
         Settings(selection="luck", parsimony=1, tournament=0, scaling=-1)

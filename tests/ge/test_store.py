@@ -10,6 +10,7 @@ import pytest
 from geswarm.ge.database import StoreError
 from geswarm.ge.engine import Engine
 from geswarm.ge.evolve import Stopped, evolve
+from geswarm.ge.locks import is_written
 from geswarm.ge.settings import Settings
 from geswarm.ge.store import RunStore
 
@@ -134,7 +135,21 @@ def test_readers_see_whole_generations_while_it_is_written(grammar, tmp_path):
     assert seen == [(generation, generation) for generation in range(1, 9)]
 
 
-def test_a_second_writer_is_noticed(grammar, tmp_path):
+def test_a_second_writer_is_refused(grammar, tmp_path):
+    with RunStore.create(tmp_path, CONFIG) as store:
+        for second in (RunStore.open, lambda path: RunStore.create(path, CONFIG)):
+            with pytest.raises(StoreError, match="another process is at work on this run"):
+                second(tmp_path)
+        assert is_written(tmp_path)
+        with RunStore.open(tmp_path, read_only=True) as reader:
+            assert reader.config == CONFIG
+        evolve(Engine(grammar, SMALL, 3), objective, store)
+    assert not is_written(tmp_path)
+    RunStore.open(tmp_path).close()
+
+
+def test_a_second_writer_is_noticed_where_nothing_can_be_claimed(grammar, tmp_path, monkeypatch):
+    monkeypatch.setattr("geswarm.ge.locks._open", lambda directory: None)
     with RunStore.create(tmp_path, CONFIG) as store, RunStore.open(tmp_path) as other:
         engine = Engine(grammar, SMALL, 3)
         evolve(engine, objective, store, stop=lambda: engine.generation == 2)
@@ -142,6 +157,20 @@ def test_a_second_writer_is_noticed(grammar, tmp_path):
             evolve(Engine(grammar, SMALL, 3), objective, other)
         evolve(engine, objective, store)
         assert len(store.history()) == 8
+
+
+def test_another_configuration_is_kept_and_what_was_written_over_is_known(finished):
+    with RunStore.open(finished) as store:
+        assert not store.config_differed
+        store.change_config("seed: 4\n")
+        assert (finished / "config.yaml").read_text() == store.config == "seed: 4\n"
+    (finished / "config.yaml").write_bytes(b"seed: 4\r\n")
+    with RunStore.open(finished) as store:
+        assert not store.config_differed
+    (finished / "config.yaml").write_text("seed: 5\n")
+    with RunStore.open(finished) as store:
+        assert store.config_differed
+    assert (finished / "config.yaml").read_text() == "seed: 4\n"
 
 
 def test_a_run_is_not_overwritten(finished):

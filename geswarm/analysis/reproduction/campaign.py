@@ -16,15 +16,16 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from pathlib import Path
 
+from geswarm import __version__
 from geswarm.analysis.cases import Case, Samples, run_cases
 from geswarm.analysis.reproduction import studies
-from geswarm.analysis.reproduction.plan import Plan, PlanError
+from geswarm.analysis.reproduction.plan import Plan, PlanError, version_of
 from geswarm.analysis.reproduction.progress import Meter, OnProgress, Part, works_of
 from geswarm.analysis.reproduction.report import files_of
 from geswarm.analysis.reproduction.results import Results, best_of, format_samples, parse_samples
 from geswarm.analysis.reproduction.studies import EVO_8, HAND_CODED, evolved_name
-from geswarm.evolution import EvolutionRun
-from geswarm.ge import GenerationRecord
+from geswarm.evolution import EvolutionRun, version_remarks
+from geswarm.ge import GenerationRecord, StoreError, locks
 from geswarm.plain_text import NotTextError, decode, read_file
 from geswarm.rules import RuleSet, load_preset
 from geswarm.rules.library import write_whole
@@ -42,11 +43,13 @@ class Campaign:
     Attributes:
         directory: Where it is kept.
         plan: What was asked for.
+        remarks: What whoever continues it should know: sentences, usually none.
     """
 
-    def __init__(self, directory: Path, plan: Plan) -> None:
+    def __init__(self, directory: Path, plan: Plan, version: str = __version__) -> None:
         self.directory = directory
         self.plan = plan
+        self.remarks = version_remarks("This campaign", version)
 
     @classmethod
     def at(cls, directory: str | Path, **asked: int) -> Campaign:
@@ -62,9 +65,11 @@ class Campaign:
         """
         directory = Path(directory)
         path = directory / "campaign.yaml"
+        version = __version__
         try:
             if path.exists():
-                plan = Plan.from_yaml(read_file(path, MAX_CHARACTERS))
+                text = read_file(path, MAX_CHARACTERS)
+                plan, version = Plan.from_yaml(text), version_of(text)
             else:
                 plan = Plan(**asked)
         except (PlanError, NotTextError, OSError) as error:
@@ -75,7 +80,7 @@ class Campaign:
                 f"{directory}: holds a campaign with {', '.join(differences)}; "
                 "choose another directory, or leave these options out to go on with it"
             )
-        campaign = cls(directory, plan)
+        campaign = cls(directory, plan, version)
         if not path.exists():
             campaign._begin()
         return campaign
@@ -132,14 +137,18 @@ class Campaign:
 
     def _begin(self) -> None:
         try:
-            self.directory.mkdir(parents=True, exist_ok=True)
-            found = {entry.name for entry in self.directory.iterdir() if entry.name[0] != "."}
+            with locks.new_directory(self.directory):
+                found = {entry.name for entry in self.directory.iterdir() if entry.name[0] != "."}
+                if strange := sorted(found - {"evolution"}):
+                    raise CampaignError(
+                        f"{self.directory}: expected an empty directory or a campaign, "
+                        f"found {strange[0]}"
+                    )
+                locks.require_locks(self.directory)
+        except StoreError as error:
+            raise CampaignError(str(error)) from error
         except OSError as error:
             raise CampaignError(f"{self.directory}: {_reason(error)}") from error
-        if strange := sorted(found - {"evolution"}):
-            raise CampaignError(
-                f"{self.directory}: expected an empty directory or a campaign, found {strange[0]}"
-            )
         self._write("campaign.yaml", self.plan.to_yaml())
 
     def _evolve(

@@ -10,7 +10,7 @@ import yaml
 from geswarm import __version__
 from geswarm.evolution import RunConfig
 from geswarm.ge import Settings
-from geswarm.rules.plain_yaml import YamlError, compose, value_of
+from geswarm.rules import plain_yaml
 from geswarm.sim import load_scenario
 
 QUICK: dict[str, int] = {"runs": 3, "generations": 50, "evaluations": 20}
@@ -82,11 +82,16 @@ class Plan:
             PlanError: It is something else.
         """
         try:
-            node = compose(text)
-            document = None if node is None else value_of(node)
-        except YamlError as error:
+            document = plain_yaml.load(text)
+        except plain_yaml.YamlError as error:
             raise PlanError(str(error)) from error
         names = ["geswarm", *(field.name for field in fields(cls))]
         if not isinstance(document, dict) or sorted(map(str, document)) != sorted(names):
-            raise PlanError(f"expected the keys {', '.join(names)}")
+            found = ", ".join(map(str, document)) if isinstance(document, dict) else "no keys"
+            raise PlanError(f"expected the keys {', '.join(names)}, got {found}")
         return cls(**{name: document[name] for name in names[1:]})
+
+
+def version_of(text: str) -> str:
+    """The GESwarm that wrote a text which `Plan.from_yaml` reads."""
+    return str(plain_yaml.load(text)["geswarm"])

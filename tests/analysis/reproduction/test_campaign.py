@@ -9,6 +9,7 @@ import time
 
 import pytest
 
+from geswarm import __version__
 from geswarm.analysis.reproduction import Campaign, CampaignError, Plan, Verdict
 from geswarm.cli import main
 from geswarm.cli.reproduce import _duration
@@ -191,6 +192,17 @@ def test_a_directory_with_something_else_is_refused(tmp_path, capsys):
 def test_a_damaged_campaign_file_is_refused(tmp_path, text):
     (tmp_path / "campaign.yaml").write_text(text)
     with pytest.raises(CampaignError, match=r"campaign\.yaml: "):
+        Campaign.at(tmp_path)
+
+
+def test_a_campaign_of_another_version_says_so(tmp_path):
+    assert Campaign.at(tmp_path, runs=1, generations=2).remarks == ()
+    plan = tmp_path / "campaign.yaml"
+    plan.write_text(plan.read_text().replace(f"geswarm: {__version__}", "geswarm: 0.0.7"))
+    (remark,) = Campaign.at(tmp_path).remarks
+    assert f"began with GESwarm 0.0.7 and goes on with {__version__}" in remark
+    plan.write_text(plan.read_text() + "castes: 2\n")
+    with pytest.raises(CampaignError, match=r"expected the keys .* got .*castes"):
         Campaign.at(tmp_path)
 
 
