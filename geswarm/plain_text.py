@@ -65,7 +65,7 @@ def _other_encoding(data: bytes) -> str | None:
         name = codec = "UTF-32"
     elif data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         name = codec = "UTF-16"
-    elif 0 in data[:2]:
+    elif data[:2].count(0) == 1:
         name, codec = "UTF-16", "UTF-16-BE" if data[0] == 0 else "UTF-16-LE"
     else:
         return None

@@ -70,6 +70,7 @@ class SwarmPanel:
         )
         back = gui.add_button(
             "",
+            color="gray",
             icon=viser.Icon.ARROW_BACK_UP,
             hint="The run before, exactly as it was; this one is kept, too",
             visible=False,

@@ -6,7 +6,7 @@ import pickle
 import threading
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
+from concurrent.futures import Executor, Future, TimeoutError
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
@@ -41,14 +41,7 @@ def cluster_executor(address: str, say: Callable[[str], None]) -> Iterator[Execu
         raise ClusterError(
             "--cluster needs Dask, which is not installed here: pip install 'geswarm[cluster]'"
         ) from error
-    try:
-        client = distributed.Client(address, timeout=_PATIENCE)
-    except (OSError, ValueError) as error:
-        raise ClusterError(
-            f"{address}: expected a Dask scheduler, for example tcp://host:8786, "
-            f"got no answer: {error}"
-        ) from error
-    with client:
+    with _connected(distributed, address) as client:
         executor, ended = _ClusterExecutor(client), threading.Event()
         watch = threading.Thread(
             target=_watch, args=(executor, address, say, ended), name="cluster", daemon=True
@@ -58,6 +51,30 @@ def cluster_executor(address: str, say: Callable[[str], None]) -> Iterator[Execu
             yield executor
         finally:
             ended.set()
+
+
+def _connected(distributed: Any, address: str) -> Any:
+    """A client; given up after a while, also where something listens that is no scheduler.
+
+    Raises:
+        ClusterError: No scheduler answers.
+    """
+    found: Future[Any] = Future()
+
+    def connect() -> None:
+        try:
+            found.set_result(distributed.Client(address, timeout=_PATIENCE))
+        except Exception as error:
+            found.set_exception(error)
+
+    threading.Thread(target=connect, name="cluster", daemon=True).start()
+    try:
+        return found.result(2 * _PATIENCE)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ClusterError(
+            f"{address}: expected a Dask scheduler, for example tcp://host:8786, "
+            f"got no answer: {str(error) or 'something else listens there'}"
+        ) from error
 
 
 class _ClusterExecutor(Executor):

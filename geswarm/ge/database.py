@@ -49,9 +49,9 @@ _HEADER = 100  # bytes; format of the file: sqlite.org/fileformat.html, section 
 _MAGIC = b"SQLite format 3\0"
 _TOUCH = "SELECT 1 FROM run"
 _BESIDE = ("-wal", "-shm", "-journal")  # SQLite's own files beside a database
-
 OWN_FILES = tuple(f"run.db{suffix}" for suffix in (*_BESIDE, ""))
 """What a database consists of, itself last."""
+
 
 _MISREAD = (ValueError, KeyError, TypeError, OverflowError, RecursionError)
 """What reading a value raises that is not what should be there."""
@@ -107,16 +107,26 @@ def connect_to_write(path: Path) -> sqlite3.Connection:
     What a killed writer left is completed. A run that was begun with a write-ahead log, and was
     brought where that cannot be, goes on with a rollback journal.
     """
-    connection = connect(path, "rw")
     try:
-        connection.execute(_TOUCH).fetchall()
+        return _after(connect(path, "rw"), _TOUCH)
     except sqlite3.OperationalError:
+        return _after(
+            connect(path, "rw"),
+            "PRAGMA locking_mode = EXCLUSIVE",  # the log of a single process needs no shared memory
+            "PRAGMA journal_mode = DELETE",
+            "PRAGMA locking_mode = NORMAL",
+            _TOUCH,  # gives the lock back
+        )
+
+
+def _after(connection: sqlite3.Connection, *statements: str) -> sqlite3.Connection:
+    """The connection once these statements are carried out; closed if one of them cannot be."""
+    try:
+        for statement in statements:
+            connection.execute(statement).fetchall()
+    except BaseException:
         connection.close()
-        connection = connect(path, "rw")
-        connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # a log of one needs no shared memory
-        connection.execute("PRAGMA journal_mode = DELETE")
-        connection.execute("PRAGMA locking_mode = NORMAL")
-        connection.execute(_TOUCH).fetchall()  # gives the lock back
+        raise
     return connection
 
 
@@ -126,15 +136,12 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
     Raises:
         sqlite3.OperationalError: Only `connect_to_write` can make it whole: a writer was killed.
     """
-    connection = connect(path, "ro")
     try:
-        connection.execute(_TOUCH).fetchall()
+        return _after(connect(path, "ro"), _TOUCH)
     except sqlite3.OperationalError:
-        connection.close()
         if any(path.with_name(path.name + suffix).exists() for suffix in ("-wal", "-journal")):
             raise  # the latest generations are in there
-        connection = connect(path, "ro&immutable=1")
-    return connection
+        return connect(path, "ro&immutable=1")
 
 
 def require_run(path: Path) -> None:

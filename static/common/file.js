@@ -41,7 +41,7 @@ export function ruleSetFile(notices, take) {
 function decode(bytes) {
   const [first, second] = bytes;
   const marked = (first === 0xff && second === 0xfe) || (first === 0xfe && second === 0xff);
-  if (marked || first === 0 || second === 0) return { reason: "UTF-16, expected UTF-8." };
+  if (marked || (first === 0) !== (second === 0)) return { reason: "UTF-16, expected UTF-8." };
   try {
     return { text: new TextDecoder("utf-8", { fatal: true }).decode(bytes) };
   } catch {

@@ -5,6 +5,7 @@ import { h, icon, iconButton } from "./dom.js";
 const INFO_STAYS = 6000;
 const OTHERS_STAY = 5000;
 const LOST = "Connection lost, reconnecting… What you type is kept.";
+const LEAST_SHOWN = 2000; // ms for which an error is seen, also if it is over at once
 
 export class Notices {
   #told = 0;
@@ -38,6 +39,7 @@ export class Notices {
         role: level === "error" ? "alert" : "status",
         "data-testid": `notice-${level}`,
         "data-about": about,
+        "data-shown": performance.now(),
       },
       ...(level === "error" ? [icon("warning")] : []),
       h("span", { class: "notice-text" }, text),
@@ -57,7 +59,8 @@ export class Notices {
    */
   forget(about = "") {
     for (const notice of this.list.querySelectorAll(".error")) {
-      if (notice.dataset.about === about) notice.remove();
+      if (notice.dataset.about !== about) continue;
+      setTimeout(() => notice.remove(), notice.dataset.shown - performance.now() + LEAST_SHOWN);
     }
   }
 

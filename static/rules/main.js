@@ -83,6 +83,7 @@ const handlers = {
     const message = session.state;
     notices.connected(true);
     if (before?.version !== message.version) forgetRefusal();
+    if (session.replaced) notices.forget();
     document.body.classList.remove("waiting");
     header.update(message);
     live.rulesChanged(message.rule_set.rules);
@@ -140,7 +141,6 @@ function comeBack() {
   tellDrafts("giveup", !session.replaced && isEditing(active) ? active : null);
   text.comeBack();
   notices.forget("journal");
-  if (session.replaced) notices.forget();
   if (unanswered) notices.show("error", UNANSWERED);
   away = unanswered = false;
 }

@@ -162,6 +162,25 @@ def test_the_keys_are_argos_s(dashboard, session, screen):
     screen.get_by_text("Speed 10x").wait_for()
 
 
+def test_a_run_that_was_reset_by_a_key_is_gone_back_to(session, screen):
+    back = screen.get_by_role("button", name="Back to")
+    session.post(lambda session: session._advance(1205, budget=60.0))
+    screen.get_by_text("2:00", exact=True).wait_for()
+    assert not back.is_visible()
+    screen.get_by_label("Seed").fill("7")
+    wait_until(lambda: session.world.steps == 0 and session.world.seed == 7)
+    back.click()
+    wait_until(lambda: (session.world.steps, session.world.seed) == (1205, 0))
+    wait_until(lambda: screen.get_by_label("Seed").input_value() == "0")
+    screen.get_by_text("Swarm", exact=True).hover()
+    screen.keyboard.press("r")
+    wait_until(lambda: session.world.steps == 0)
+    screen.get_by_role("button", name="Back to 2:00 of the run before").click()
+    wait_until(lambda: session.world.steps == 1205)
+    assert (session.scenario, session.rival) == (session.loaded, None)
+    back.wait_for(state="hidden")
+
+
 def test_trails_heat_map_and_ranges_are_shown(dashboard, session, screen):
     open_folder(screen, "Show")
     for name in ("Trails", "Visit heat map"):
@@ -237,6 +256,9 @@ def test_a_stretch_is_recorded_and_plays_by_itself(session, screen, browser, tmp
     )
     replay.goto(path.as_uri())
     replay.wait_for_selector("canvas", timeout=PATIENCE)
-    replay.wait_for_timeout(2000)
+    sees_far = "window.__viserMutable?.camera?.fov < 31 && __viserMutable.camera.far > 100"
+    replay.wait_for_function(sees_far, timeout=PATIENCE)
+    assert replay.title() == "GESwarm"
+    assert replay.evaluate("document.querySelector('link[rel=icon]').href").startswith("data:")
     replay.close()
     assert complaints == []

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import re
 import threading
 import time
@@ -125,3 +126,11 @@ def pixels(page):
 
 def chart(page):
     return page.locator(".u-wrap canvas").first.evaluate("canvas => canvas.toDataURL()")
+
+
+@pytest.mark.parametrize(("cores", "threads"), [(1, 1), (2, 1), (8, 7)])
+def test_evolution_leaves_one_of_its_own_cores_to_the_arena(cores, threads, monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(cores)), raising=False)
+    dashboard = open_dashboard(load_scenario("paper"), load_preset("evo8"), "127.0.0.1", 0)
+    assert dashboard.session.evolution.workers == threads
+    dashboard.close()

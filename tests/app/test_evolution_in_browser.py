@@ -185,6 +185,8 @@ def test_rules_that_cannot_enter_are_named(page, served):
     page.get_by_test_id("inject").click()
     expect(page.get_by_test_id("notice-error")).to_contain_text("rule 1: p = 0.3 cannot evolve")
     expect(page.get_by_test_id("notice-error")).to_contain_text("the nearest is 0.1")
+    page.get_by_test_id("pause").click()  # something else is asked for
+    expect(page.get_by_test_id("notice-error")).to_have_count(0)
 
 
 def test_an_individual_is_clicked_and_loaded(page, served):

@@ -77,9 +77,13 @@ def page(browser, served):
 
 
 def test_rule_sets_are_compared_and_saved(page, tmp_path):
+    bad = {"name": "bad.yaml", "mimeType": "text/yaml", "buffer": b"rules: ["}
+    page.get_by_test_id("file").set_input_files(bad)
+    expect(page.get_by_test_id("notice-error")).to_contain_text("bad.yaml")
     page.get_by_test_id("runs").fill("1")
     page.get_by_test_id("runs").press("Tab")
     expect(page.get_by_test_id("runs-error")).to_contain_text("expected a whole number from 2")
+    expect(page.get_by_test_id("notice-error")).to_have_count(0)
     expect(page.get_by_test_id("compare-start")).to_be_disabled()
     page.get_by_test_id("runs").fill("4")
     page.get_by_test_id("runs").press("Enter")

@@ -132,12 +132,13 @@ def test_a_replay_in_a_browser_has_its_name_and_its_rules(dashboard, browser, tm
     loop.join(20)
     ((name, content),) = sent
     (tmp_path / name).write_bytes(content)
-    page = browser.new_page(viewport={"width": 1200, "height": 800})
+    page = browser.new_page(viewport={"width": 700, "height": 500})
+    page.set_default_timeout(2 * PATIENCE)
     page.goto((tmp_path / name).as_uri())
-    page.wait_for_selector("canvas", timeout=PATIENCE)
+    page.wait_for_selector("canvas")
     assert page.title() == "EVO 8 in paper from 0:00 – GESwarm"
     rules = page.get_by_text("do p = 0.001, ANTI-PHOTOTAXIS")
-    rules.wait_for(timeout=PATIENCE)
-    page.locator("summary").click(timeout=PATIENCE)
-    rules.wait_for(state="hidden", timeout=PATIENCE)
+    rules.wait_for()
+    page.locator("summary").click()
+    rules.wait_for(state="hidden")
     page.close()

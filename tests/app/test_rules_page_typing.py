@@ -248,6 +248,10 @@ def test_an_error_goes_when_something_else_is_asked_for(page, server):
         expect(error).to_contain_text(file["name"])
     page.get_by_test_id("rule-1-enabled").click()
     expect(error).to_have_count(0)
+    page.get_by_test_id("file").set_input_files(bad)
+    choose(page, "load", "hand-coded")  # the error is seen nevertheless, for a while
+    expect(error).to_be_visible()
+    expect(error).to_have_count(0)
 
 
 def test_a_text_that_is_refused_stays_typed_and_esc_ends_the_error_too(page, server):

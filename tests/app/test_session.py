@@ -187,10 +187,10 @@ def test_evolution_runs_pauses_goes_on_and_gives_its_best(session, tmp_path):
     assert set(evolution.references) == {"hand-coded", "evo8"}
     evolution.pause()
     assert evolution.phase is Phase.PAUSED
-    time.sleep(0.1)
     paused_at = len(evolution.history)
-    time.sleep(0.2)
-    assert len(evolution.history) == paused_at
+    time.sleep(0.3)
+    assert len(evolution.history) <= paused_at + 1  # the generation that was at work
+    paused_at = len(evolution.history)
     evolution.go_on()
     wait_for(lambda: len(evolution.history) > paused_at)
     load_best(session)

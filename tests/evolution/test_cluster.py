@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -112,6 +113,16 @@ def scheduler(monkeypatch):
         n_workers=0, threads_per_worker=1, processes=False, dashboard_address=None
     ) as cluster:
         yield cluster
+
+
+def test_something_that_listens_and_is_no_scheduler_is_given_up(monkeypatch):
+    pytest.importorskip("distributed", reason="needs the extra: geswarm[cluster]")
+    monkeypatch.setattr("geswarm.cluster._PATIENCE", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        words = f"{address}: expected a Dask scheduler"
+        with pytest.raises(ClusterError, match=words), cluster_executor(address, print):
+            pass
 
 
 class Heard(list):

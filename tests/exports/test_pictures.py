@@ -161,7 +161,7 @@ def test_another_probability_takes_no_text_off_the_brief_picture(preset):
     for at, rule in enumerate(rule_set.rules):
         for where, action in enumerate(rule.actions):
             actions, rules = list(rule.actions), list(rule_set.rules)
-            actions[where] = replace(action, p=0.1)
+            actions[where] = replace(action, p=0.05)
             rules[at] = replace(rule, actions=tuple(actions))
             layout = lay_out(StateMachine.of(RuleSet(tuple(rules))), BRIEF)
             assert all(arrow.lines for arrow in layout.arrows)
