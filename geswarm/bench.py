@@ -18,7 +18,7 @@ import numpy as np
 from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
 from geswarm.ge import Settings
 from geswarm.ge.mapping import CODON_LIMIT, Mapper
-from geswarm.rules import ControlTable, load_preset
+from geswarm.rules import load_preset
 from geswarm.sim import (
     CONTROL_STEP,
     Scenario,
@@ -28,8 +28,9 @@ from geswarm.sim import (
     load_scenario,
 )
 from geswarm.sim.batch import Group
-from geswarm.sim.encoding import encode_tables
+from geswarm.sim.encoding import fails
 from geswarm.sim.kernels.state import LANES
+from geswarm.sim.program import compile_controllers
 from geswarm.sim.startup import warm_up
 
 Report: TypeAlias = Callable[[str], None]
@@ -141,9 +142,9 @@ def _robot_steps() -> tuple[float, float]:
     """Nanoseconds per robot and control step: side by side, and interpreting one simulation."""
     scenario = load_scenario("paper")
     rule_sets = [load_preset(name) for name in _PRESETS]
-    words = encode_tables([ControlTable.compile(rules) for rules in rule_sets], scenario.zone_miss)
+    tables = compile_controllers(rule_sets, fails(scenario))
     simulations = np.array([(lane % len(rule_sets), lane, 0, 0) for lane in range(LANES)])
-    group = Group(words, scenario, simulations)
+    group = Group(tables, scenario, simulations)
     worlds = [World(scenario, rules, seed=1) for rules in rule_sets]
     group_steps, world_steps = 10_000, 20_000
     wide, single = [], []
@@ -160,7 +161,7 @@ def _robot_steps() -> tuple[float, float]:
 def _runs() -> tuple[float, float | None]:
     """Runs of the paper per second on all cores; how much faster two threads are than one."""
     scenario = load_scenario("paper")
-    tables = [ControlTable.compile(load_preset(name)) for name in _PRESETS]
+    tables = [load_preset(name) for name in _PRESETS]
     simulations = [(number % len(tables), number, 0, 0) for number in range(4 * LANES)]
 
     def run_all(workers: int | None) -> None:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules import ControlTable, RuleSet
+from geswarm.rules import RuleSet
 from geswarm.sim import Scenario, Simulation, Stop, evaluate
 
 _RUNS_PER_CALL = 128  # between two reports of progress; fills the SIMD lanes of two threads
@@ -85,16 +85,15 @@ def evaluate_rule_sets(
     Raises:
         EvaluationStopped: `stop` returned True.
     """
-    tables = [ControlTable.compile(rule_set) for rule_set in rule_sets]
-    total, counts = len(tables) * runs, []
+    total, counts = len(rule_sets) * runs, []
     for first in range(0, total, _RUNS_PER_CALL):
         part = [
             Simulation(table=at // runs, seed=seed, replicate=at % runs)
             for at in range(first, min(first + _RUNS_PER_CALL, total))
         ]
-        result = evaluate(tables, scenario, part, workers=workers, stop=stop)
+        result = evaluate(rule_sets, scenario, part, workers=workers, stop=stop)
         counts.append(np.stack([result.collected, result.lost]))
         if on_progress:
             on_progress(first + len(part), total)
-    collected, lost = np.concatenate(counts, axis=1).reshape(2, len(tables), runs)
+    collected, lost = np.concatenate(counts, axis=1).reshape(2, len(rule_sets), runs)
     return [Evaluation(*pair) for pair in zip(collected, lost, strict=True)]

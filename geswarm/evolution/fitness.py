@@ -73,9 +73,9 @@ class ForagingFitness:
         return [float(mean) for mean in per_individual.mean(axis=1)]
 
     def _here(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.int64]:
-        tables = [self.composition.table(phenotype) for phenotype in phenotypes]
+        rule_sets = [self.composition.rule_set(phenotype) for phenotype in phenotypes]
         try:
-            result = evaluate(tables, self.scenario, todo, workers=self.workers, stop=self.stop)
+            result = evaluate(rule_sets, self.scenario, todo, workers=self.workers, stop=self.stop)
         except EvaluationStopped as error:
             raise Stopped from error
         return result.collected
@@ -145,5 +145,5 @@ def simulate_share(
     """
     if version != __version__:
         raise RuntimeError(f"expected GESwarm {version} on every worker, found {__version__}")
-    tables = [composition.table(phenotype) for phenotype in phenotypes]
-    return evaluate(tables, scenario, simulations, workers=1).collected
+    rule_sets = [composition.rule_set(phenotype) for phenotype in phenotypes]
+    return evaluate(rule_sets, scenario, simulations, workers=1).collected

@@ -15,28 +15,17 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.control_table import ControlTable
-from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import footbot
-from geswarm.sim.compiled import run_lanes, run_simulation, start_lanes, start_world
+from geswarm.sim.assembly.kernel import assemble
+from geswarm.sim.assembly.records import GROUP, OBJECT, Records, robot_type, work_type
+from geswarm.sim.assembly.source import Layout
 from geswarm.sim.cores import available_cores
-from geswarm.sim.encoding import (
-    Words,
-    encode_scenario,
-    encode_tables,
-    in_single_precision,
-    room_for,
-)
-from geswarm.sim.kernels.state import (
-    COLLECTED,
-    GROUP,
-    LANES,
-    LOST,
-    OBJECT_LANES,
-    PICKED,
-    ROBOT_LANES,
-)
+from geswarm.sim.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
+from geswarm.sim.kernels.state import LANES
+from geswarm.sim.kernels.table import Tables
+from geswarm.sim.program import Controller, compile_controllers
 from geswarm.sim.scenario import Scenario
+from geswarm.sim.swarm import Swarm
+from geswarm.sim.terms.foraging import FORAGING as PARTS
 
 _ROBOT_STEPS_PER_CALL = 2_000_000
 """Work between two looks at `stop`: up to about a tenth of a second."""
@@ -46,7 +35,8 @@ _ROBOTS_SIDE_BY_SIDE, _OBJECTS_SIDE_BY_SIDE = 64, 128
 
 Stop: TypeAlias = Callable[[], bool]
 Counts: TypeAlias = npt.NDArray[np.int64]
-"""Shape (simulations, 3): picked, collected, lost."""
+"""Shape (simulations, 3), in the order of `_MEASURES`."""
+_MEASURES = ("picked", "collected", "lost")
 
 
 class Simulation(NamedTuple):
@@ -78,7 +68,7 @@ class BatchResult:
 
 
 def evaluate(
-    tables: Sequence[ControlTable],
+    tables: Sequence[Controller],
     scenario: Scenario,
     simulations: Sequence[Simulation] | Sequence[tuple[int, int, int, int]],
     *,
@@ -88,7 +78,7 @@ def evaluate(
     """Run simulations; each result depends on its table, scenario and numbers alone.
 
     Args:
-        tables: Control tables of the rule sets.
+        tables: Rule sets, or their control tables.
         scenario: The same for all simulations.
         simulations: (table, seed, individual, replicate) each.
         workers: Number of threads; None is one per available core.
@@ -105,18 +95,16 @@ def evaluate(
     todo = _checked(simulations, len(tables))
     tallies = np.zeros((len(todo), 3), dtype=np.int64)
     if len(todo):
-        words = encode_tables(tables, scenario.zone_miss)
+        compiled = compile_controllers(tables, fails(scenario))
         together = runs_side_by_side(scenario)
         run_share = _run_side_by_side if together else _run_one_by_one
 
         def run(share: slice) -> None:
-            run_share(words, scenario, todo[share], tallies[share], stop)
+            run_share(compiled, scenario, todo[share], tallies[share], stop)
 
         _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
     return BatchResult(
-        collected=tallies[:, COLLECTED].copy(),
-        lost=tallies[:, LOST].copy(),
-        picked=tallies[:, PICKED].copy(),
+        **{name: tallies[:, at].copy() for at, name in enumerate(_MEASURES)},
     )
 
 
@@ -137,17 +125,10 @@ def _checked(
 
 def runs_side_by_side(scenario: Scenario) -> bool:
     """Whether small swarms' way of running suits: few robots, and single precision is enough."""
-    turn = min(
-        scenario.turn_gain * np.pi,
-        2.0 * scenario.max_speed / footbot.WHEEL_BASE,
-    )
-    extent = max(scenario.width, scenario.length)
-    advance = scenario.max_speed * CONTROL_STEP
     return bool(
         scenario.robots <= _ROBOTS_SIDE_BY_SIDE
         and scenario.objects <= _OBJECTS_SIDE_BY_SIDE
-        and turn * CONTROL_STEP <= np.pi / 2.0  # for which its sine is good
-        and advance >= extent / 2.0**15  # a thousand times what positions are rounded to
+        and not is_wide(scenario)
     )
 
 
@@ -164,68 +145,76 @@ def _shares(simulations: int, workers: int) -> list[slice]:
     return [slice(*pair) for pair in itertools.pairwise(ends)]
 
 
+def lanes_of(tables: Tables, numbers: npt.NDArray[np.int64]) -> Records:
+    """Where the control table of each lane begins; of GROUP."""
+    group = np.zeros(1, dtype=GROUP)
+    group["codes"][0, : len(numbers)] = tables.begins[numbers, 0]
+    group["rows"][0, : len(numbers)] = tables.begins[numbers, 1]
+    return group
+
+
 class Group:
     """Up to LANES simulations side by side; the last vector is filled with copies of the last one.
 
     Attributes:
-        robots: Of ROBOT_LANES, shape (robots,).
-        objects: Of OBJECT_LANES, shape (objects,).
-        counts: Of GROUP.
+        robots: Of `assembly.records.robot_type`, shape (robots,).
+        objects: Of OBJECT, shape (objects,).
     """
 
-    def __init__(self, words: Words, scenario: Scenario, simulations: Counts) -> None:
+    def __init__(self, tables: Tables, scenario: Scenario, simulations: Counts) -> None:
         """Start simulations (table, seed, individual, replicate)."""
+        layout = Layout()
+        self._kernel = assemble(PARTS, layout)
+        self._numbers = numbers_by_name(scenario, self._kernel.numbers)
         self.width = _LANES_OF_A_VECTOR * -(-len(simulations) // _LANES_OF_A_VECTOR)
         filled = np.pad(simulations, ((0, self.width - len(simulations)), (0, 0)), mode="edge")
-        self.robots = np.zeros(scenario.robots, dtype=ROBOT_LANES)
-        self.objects = np.zeros(scenario.objects, dtype=OBJECT_LANES)
-        self.counts = np.zeros(1, dtype=GROUP)[0]
-        self.counts["table"][: self.width] = filled[:, 0] * words.words[0].size
-        self.counts["slot_bits"][: self.width] = words.slot_bits[filled[:, 0]]
-        self._words = words
-        physics = encode_scenario(scenario)
-        self._physics = in_single_precision(physics)
-        room = room_for(scenario)
-        start_lanes(physics, *room[:4], filled, self.robots, self.objects)
+        self.robots = np.zeros(scenario.robots, dtype=robot_type(PARTS, layout))
+        self.objects = np.zeros(scenario.objects, dtype=OBJECT)
+        self._work = np.zeros(1, dtype=work_type(PARTS, layout))[0]
+        self._tables = (lanes_of(tables, filled[:, 0])[0], *tables[:4])
+        began = start_of(scenario, filled)
+        for name in ("x", "y"):
+            self.objects[name][:, : self.width] = began.objects[:, :, "xy".index(name)].T
+        self._fill(began.robots)
+
+    def _fill(self, began: Records) -> None:
+        lanes = np.zeros((len(self.robots), LANES), dtype=began.dtype)
+        lanes[:, : self.width] = began.T
+        fill_robots(self.robots, lanes)
 
     def run(self, first: int, steps: int) -> None:
         """Run control steps first..first+steps-1."""
-        words = self._words.words.reshape(-1)
-        run_lanes(
-            self._physics,
-            self.robots,
-            self.objects,
-            self.counts,
-            words,
-            self._words.row_bits,
-            self.width,
-            first,
-            steps,
-        )
+        records = (self._numbers, self.robots, self.objects, self._work)
+        self._kernel.run(*records, *self._tables, self.width, first, steps)
+
+    def measured(self, name: str) -> npt.NDArray[np.int64]:
+        """A measure of each simulation, shape (LANES,)."""
+        total: npt.NDArray[np.int64] = self.robots[name].sum(axis=0, dtype=np.int64)
+        return total
 
 
 def _run_side_by_side(
-    words: Words, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+    tables: Tables, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
 ) -> None:
     """Run at most LANES simulations."""
-    group = Group(words, scenario, simulations)
+    group = Group(tables, scenario, simulations)
     for first, steps in _segments(scenario, group.width, stop):
         group.run(first, steps)
-    for position, name in ((PICKED, "picked"), (COLLECTED, "collected"), (LOST, "lost")):
-        tallies[:, position] = group.counts[name][: len(tallies)]
+    for at, name in enumerate(_MEASURES):
+        tallies[:, at] = group.measured(name)[: len(tallies)]
 
 
 def _run_one_by_one(
-    words: Words, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+    tables: Tables, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
 ) -> None:
     """Run simulations one after the other."""
-    physics = encode_scenario(scenario)
-    room = room_for(scenario)
-    for (table, *key), tally in zip(simulations.tolist(), tallies, strict=True):
-        start_world(physics, *room[:4], *key)
-        of_table, slot_bits = words.words[table], int(words.slot_bits[table])
-        for first, steps in _segments(scenario, 1, stop):
-            run_simulation(physics, *room, tally, of_table, slot_bits, first, steps)
+    swarm = Swarm(scenario, rules=False)
+    for (table, *key), tally in zip(simulations, tallies, strict=True):
+        swarm.start(*key)
+        controller = (lanes_of(tables, np.full(LANES, table))[0], *tables[:4])
+        for _, steps in _segments(scenario, 1, stop):
+            swarm.run(controller, steps)
+        tally[:] = [swarm.measured(name) for name in _MEASURES]
 
 
 def _segments(scenario: Scenario, lanes: int, stop: Stop | None) -> Iterator[tuple[int, int]]:

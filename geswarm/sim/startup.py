@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numba
 
-from geswarm.rules import ControlTable, RuleSet
+from geswarm.rules import RuleSet
 from geswarm.sim import compiled
 from geswarm.sim.batch import evaluate
 from geswarm.sim.kernels import cache
@@ -48,10 +48,7 @@ def warm_up(announce: Callable[[str], None] | None = None) -> None:
     if not compiled_before:
         announce(COMPILING if cache.trouble() is None else COMPILING_EACH_TIME)
     small = load_scenario("paper").with_changes(duration=0.1)
-    large = small.with_changes(robots=100, width=10.0)
-    table = ControlTable.compile(RuleSet())
-    for scenario in (small, large):
-        evaluate([table], scenario, [(0, 0, 0, 0)], workers=1)
+    evaluate([RuleSet()], small, [(0, 0, 0, 0)], workers=1)
     World(small, RuleSet()).step()
     if not compiled_before:
         _remember(announce)

@@ -11,10 +11,11 @@ import numpy.typing as npt
 from geswarm.rules.model import CONTROL_STEP, RuleSet
 from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING
-from geswarm.sim.compiled import run_world, start_world
-from geswarm.sim.encoding import Room, encode_rules, encode_scenario, room_for
-from geswarm.sim.kernels.state import COLLECTED, HAS_OBJECT, LOST, ON_NEST, ON_SOURCE, PICKED
+from geswarm.sim import footbot
+from geswarm.sim.encoding import encode_scenario, fails
+from geswarm.sim.program import chances, rules_to_interpret
 from geswarm.sim.scenario import Scenario
+from geswarm.sim.swarm import Swarm
 
 NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")
 """Parameters of a scenario that a run cannot go on with if they change."""
@@ -91,9 +92,9 @@ class World:
         """
         self._scenario = scenario
         self._physics = encode_scenario(scenario)
+        self._misses = chances(fails(scenario))
+        self._swarm = Swarm(scenario, rules=True)
         self._seed = seed
-        self._use(room_for(scenario))
-        self._tally = np.zeros(3, dtype=np.int64)
         self.set_rules(rule_set)
         self.reset(seed)
 
@@ -115,27 +116,27 @@ class World:
     @property
     def steps(self) -> int:
         """Control steps since the start."""
-        return self._steps
+        return self._swarm.steps
 
     @property
     def time(self) -> float:
         """Simulated time since the start (s)."""
-        return self._steps * CONTROL_STEP
+        return self.steps * CONTROL_STEP
 
     @property
     def picked(self) -> int:
         """Objects picked up since the start."""
-        return int(self._tally[PICKED])
+        return int(self._swarm.measured("picked"))
 
     @property
     def collected(self) -> int:
         """Objects dropped inside the nest since the start."""
-        return int(self._tally[COLLECTED])
+        return int(self._swarm.measured("collected"))
 
     @property
     def lost(self) -> int:
         """Objects dropped outside the nest since the start."""
-        return int(self._tally[LOST])
+        return int(self._swarm.measured("lost"))
 
     @property
     def decisions(self) -> npt.NDArray[np.int64]:
@@ -149,17 +150,19 @@ class World:
     @property
     def state(self) -> WorldState:
         """Everything there is to see, as it is now."""
-        robots = self._robots
+        swarm = self._swarm
+        of_robots = swarm.of_robots
+        reach_x, reach_y = self._reach(footbot.RADIUS)
         return WorldState(
-            x=_frozen(robots["x"]),
-            y=_frozen(robots["y"]),
-            theta=_frozen(np.arctan2(robots["sin"], robots["cos"])),
-            behaviour=_frozen(robots["behaviour"]),
-            internal_states=_frozen(robots["states"]),
-            percepts=_frozen(robots["percepts"]),
-            carried=_frozen(robots["carried"]),
-            last_rule=_frozen(robots["last_rule"]),
-            objects=_frozen(self._objects),
+            x=_frozen(_inside(of_robots("x"), -reach_x, reach_x)),
+            y=_frozen(_inside(of_robots("y"), -reach_y, reach_y)),
+            theta=_frozen(np.arctan2(of_robots("sin"), of_robots("cos"), dtype=np.float64)),
+            behaviour=_frozen(of_robots("behaviour").astype(np.uint8)),
+            internal_states=_frozen(of_robots("state").astype(np.uint8)),
+            percepts=_frozen(of_robots("percepts").astype(np.uint8)),
+            carried=_frozen(of_robots("carried").astype(np.bool_)),
+            last_rule=_frozen(of_robots("last_rule").astype(np.int64)),
+            objects=_frozen(self._object_places()),
             rule_counts=_frozen(self._rules["fired"]),
             action_counts=tuple(
                 tuple(self._actions["fired"][first:end].tolist())
@@ -179,17 +182,14 @@ class World:
         """
         if n < 0:
             raise ValueError(f"n: expected at least 0, got {n}")
-        run_world(
-            self._physics,
-            *self._room,
-            self._tally,
+        rules = (
             self._rules,
+            self._accepted,
             self._actions,
-            self._decisions,
-            self._steps,
-            n,
+            self._misses,
+            self._decisions.reshape(-1),
         )
-        self._steps += n
+        self._swarm.run(rules, n)
 
     def set_rules(self, rule_set: RuleSet) -> None:
         """Give all robots new rules from the next step on; only what has fired is forgotten.
@@ -197,10 +197,10 @@ class World:
         Raises:
             RuleSetError: The rule set cannot be run; the world keeps its rules.
         """
-        self._rules, self._actions = encode_rules(rule_set)
+        self._rules, self._accepted, self._actions = rules_to_interpret(rule_set)
         self._rule_set = rule_set
         self._decisions = np.zeros((_SPACE.situations, _SPACE.outcomes), dtype=np.int64)
-        self._robots["last_rule"] = -1
+        self._swarm.blocks["last_rule"] = -1
 
     def set_scenario(self, scenario: Scenario) -> bool:
         """Go on in another scenario from the next step on, or start again in it.
@@ -213,20 +213,16 @@ class World:
             True if the run goes on.
         """
         goes_on = can_go_on(self._scenario, scenario)
+        before = self._swarm
         self._scenario = scenario
         self._physics = encode_scenario(scenario)
-        room = room_for(scenario)
+        self._misses = chances(fails(scenario))
+        self._swarm = Swarm(scenario, rules=True)
         if goes_on:
-            room.robots[:] = self._robots
-            room.objects[:] = self._objects
-        self._use(room)
-        if not goes_on:
+            self._swarm.go_on_as(before)
+        else:
             self.reset()
         return goes_on
-
-    def _use(self, room: Room) -> None:
-        self._room = room
-        self._robots, self._objects = room.robots, room.objects
 
     def reset(self, seed: int | None = None) -> None:
         """Start again, with the same seed unless another one is given.
@@ -238,12 +234,11 @@ class World:
         if not 0 <= seed < 2**63:
             raise ValueError(f"seed: expected 0 <= seed < 2**63, got {seed}")
         self._seed = seed
-        self._steps = 0
-        self._tally[:] = 0
         self._rules["fired"] = 0
         self._actions["fired"] = 0
         self._decisions[:] = 0
-        start_world(self._physics, *self._room[:4], seed, 0, 0)
+        self._swarm.start(seed)
+        self._swarm.blocks["last_rule"] = -1
         self._show_percepts(slice(None))
 
     def move_robot(self, i: int, x: float, y: float) -> None:
@@ -256,11 +251,8 @@ class World:
             ValueError: A coordinate is not finite.
         """
         _require_place(i, self._scenario.robots, "robot", x, y)
-        reach_x = self._physics.half_width - self._physics.radius
-        reach_y = self._physics.half_length - self._physics.radius
-        robot = self._robots[i]
-        robot["x"] = min(max(x, -reach_x), reach_x)
-        robot["y"] = min(max(y, -reach_y), reach_y)
+        reach_x, reach_y = self._reach(footbot.RADIUS)
+        self._swarm.place_robot(i, min(max(x, -reach_x), reach_x), min(max(y, -reach_y), reach_y))
         self._show_percepts(slice(i, i + 1))
 
     def move_object(self, i: int, x: float, y: float) -> None:
@@ -271,20 +263,38 @@ class World:
             ValueError: A coordinate is not finite.
         """
         _require_place(i, self._scenario.objects, "object", x, y)
-        reach_x = self._physics.half_width - self._physics.object_margin
-        north = self._physics.half_length - self._physics.object_margin
-        self._objects[i, 0] = min(max(x, -reach_x), reach_x)
-        self._objects[i, 1] = min(max(y, self._physics.source_edge), north)
+        low, high = self._where_objects_lie()
+        self._swarm.objects[i] = np.clip((x, y), low, high)
 
     def _show_percepts(self, which: slice) -> None:
         """What robots perceive where they have just been put, should they notice the zones.
 
         For the eye only: they sense for themselves at the beginning of the next step.
         """
-        robots, physics = self._robots[which], self._physics
-        in_source = np.where(robots["y"] > physics.source_edge, ON_SOURCE, 0)
-        zones = np.where(robots["y"] < physics.nest_edge, ON_NEST, in_source)
-        robots["percepts"] = zones | np.where(robots["carried"], HAS_OBJECT, 0)
+        y = self._swarm.of_robots("y")[which]
+        carried = self._swarm.of_robots("carried")[which] != 0
+        bits = FORAGING.precondition_index
+        sensed = np.where(y < self._physics.nest_edge, 1 << bits["ON_NEST"], 0)
+        sensed |= np.where(y > self._physics.source_edge, 1 << bits["ON_SOURCE"], 0)
+        sensed |= np.where(carried, 1 << bits["HAS_OBJECT"], 0)
+        self._swarm.put("percepts", which, sensed)
+
+    def _reach(self, margin: float) -> tuple[float, float]:
+        """How far from the centre something may be, eastwards and northwards."""
+        return self._physics.half_width - margin, self._physics.half_length - margin
+
+    def _where_objects_lie(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """South-western and north-eastern corner."""
+        reach_x, north = self._reach(self._physics.object_margin)
+        return (-reach_x, self._physics.source_edge), (reach_x, north)
+
+    def _object_places(self) -> npt.NDArray[np.float64]:
+        return np.clip(self._swarm.objects.astype(np.float64), *self._where_objects_lie())
+
+
+def _inside(places: npt.NDArray[np.float32], low: float, high: float) -> npt.NDArray[np.float64]:
+    """What was rounded beyond the walls is inside."""
+    return np.clip(places.astype(np.float64), low, high)
 
 
 def _frozen(array: np.ndarray[tuple[int, ...], np.dtype[np.generic]]) -> np.ndarray:

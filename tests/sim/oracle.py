@@ -6,7 +6,7 @@ Only `draw` and `make_key` are shared in meaning with the kernels; they are writ
 import math
 from dataclasses import dataclass, field
 
-from geswarm.rules import FORAGING, BehaviourChange, Space
+from geswarm.rules import FORAGING, BehaviourChange
 
 RADIUS, WHEEL_BASE, CONTROL_STEP = 0.085, 0.14, 0.1
 WORD = 0xFFFFFFFF
@@ -266,23 +266,26 @@ def by_rules(rule_set, rule_counts=None, action_counts=None):
     return decide
 
 
-def by_table(words, slot_bits):
+def by_table(tables, number=0):
     """Decide by one draw from the slots of a control table, which knows about missed zones."""
-    space = Space.of(FORAGING)
     names = [entry.name for entry in FORAGING.behaviours]
     state_names = [entry.name for entry in FORAGING.internal_states]
+    first_code, first_row, _ = (int(begin) for begin in tables.begins[number])
 
     def decide(robot, now):
         zones = robot.percepts["ON_NEST"] + 2 * robot.percepts["ON_SOURCE"]
-        memory = 8 * robot.carried + 2 * names.index(robot.behaviour) + robot.states["WANT_OBJECT"]
+        code = zones + 4 * robot.carried + 8 * robot.states["WANT_OBJECT"]
+        row = first_row + 16 * int(tables.classes[first_code + code])
+        first_slot, slot_bits = divmod(int(tables.rows[row + names.index(robot.behaviour)]), 8)
         slot, rest = divmod(int(draw(robot.key, now, OUTCOME) * 2**32), 2 ** (32 - slot_bits))
-        word = int(words[16 * zones + memory, slot])
-        first, other = word // 32 % 32, word % 32
-        chosen = first if rest * 2**slot_bits // 2**10 < word // 2**10 else other
-        behaviour, states, restart = space.describe_outcome(chosen)
-        robot.behaviour = names[behaviour]
+        slot += first_slot
+        other = rest * 2**slot_bits >= int(tables.thresholds[slot])
+        outcome = int(tables.outcomes[2 * slot + other])
+        robot.behaviour = names[outcome >> 1 & 31]
+        states = bits(robot.states, FORAGING.state_index)
+        states = states & ~(outcome >> 6 & 255) | outcome >> 14 & 255
         robot.states = {name: bool(states >> bit & 1) for bit, name in enumerate(state_names)}
-        return restart
+        return bool(outcome & 1)
 
     return decide
 

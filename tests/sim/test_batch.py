@@ -10,6 +10,7 @@ from geswarm.rules import (
     FORAGING,
     ControlTable,
     RuleSet,
+    Space,
     Vocabulary,
     load_preset,
     parse_text,
@@ -145,7 +146,7 @@ def test_bad_workers_and_vocabulary():
     other = Vocabulary(
         FORAGING.preconditions, FORAGING.behaviours[::-1], FORAGING.internal_states, (), "x"
     )
-    table = ControlTable(TABLES[0].probabilities, other)
+    table = ControlTable(TABLES[0].probabilities, Space(other, (), (), ()))
     with pytest.raises(ValueError, match=r"tables\[1\]: expected the foraging vocabulary"):
         evaluate([TABLES[0], table], SHORT, SIMULATIONS)
 

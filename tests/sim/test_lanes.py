@@ -1,21 +1,18 @@
 """Simulations side by side against the oracle: single precision, the same model."""
 
-import itertools
 import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from numba import njit
 
-from geswarm.rules import FORAGING, ControlTable, RuleSet, load_preset
+from geswarm.rules import FORAGING, RuleSet, load_preset
 from geswarm.sim import batch
-from geswarm.sim.encoding import encode_tables
+from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import single
+from geswarm.sim.program import compile_controllers
 from geswarm.sim.scenario import load_scenario
 from tests.sim import oracle
-from tests.strategies import any_probabilities, plain_rule_sets
 
 PAPER = load_scenario("paper")
 CROWDED = PAPER.with_changes(
@@ -28,9 +25,9 @@ def distance_to_oracle(group, twin, lane):
     """Largest distance between a robot and its twin; infinite if their memories differ."""
     largest = 0.0
     for i, robot in enumerate(twin.robots):
-        memory = int(group.robots["memory"][i, lane])
-        behaviour, want = BEHAVIOURS.index(robot.behaviour), robot.states["WANT_OBJECT"]
-        if memory != 8 * robot.carried + 2 * behaviour + want:
+        memory = [int(group.robots[name][i, lane]) for name in ("carried", "behaviour", "state")]
+        states = oracle.bits(robot.states, FORAGING.state_index)
+        if memory != [robot.carried, BEHAVIOURS.index(robot.behaviour), states]:
             return math.inf
         x, y = group.robots["x"][i, lane], group.robots["y"][i, lane]
         largest = max(largest, math.hypot(x - robot.x, y - robot.y))
@@ -40,12 +37,12 @@ def distance_to_oracle(group, twin, lane):
 @pytest.mark.parametrize("preset", ["hand-coded", "evo8"])
 @pytest.mark.parametrize("scenario", [PAPER, CROWDED], ids=lambda scenario: scenario.name)
 def test_lanes_follow_the_oracle(scenario, preset):
-    words = encode_tables([ControlTable.compile(load_preset(preset))], scenario.zone_miss)
+    tables = compile_controllers([load_preset(preset)], fails(scenario))
     simulations = np.array([(0, seed, 0, 0) for seed in range(16)])
-    group = batch.Group(words, scenario, simulations)
+    group = batch.Group(tables, scenario, simulations)
     ideal = scenario.with_changes(zone_miss=0.0)  # the table misses zones
     twins = [oracle.Oracle(ideal, seed) for seed in range(16)]
-    decide = oracle.by_table(words.words[0], int(words.slot_bits[0]))
+    decide = oracle.by_table(tables)
     for first in range(0, 300, 50):
         group.run(first, 50)
         for twin in twins:
@@ -56,13 +53,13 @@ def test_lanes_follow_the_oracle(scenario, preset):
     assert np.count_nonzero(apart < 1e-4) >= 13
     for lane in np.flatnonzero(apart < 1e-4):
         twin = twins[lane]
-        counts = [int(group.counts[name][lane]) for name in ("picked", "collected", "lost")]
+        counts = [int(group.measured(name)[lane]) for name in ("picked", "collected", "lost")]
         assert counts == [twin.picked, twin.collected, twin.lost]
 
 
 def test_robots_at_the_very_same_place_part():
-    words = encode_tables([ControlTable.compile(RuleSet())], 0.0)
-    group = batch.Group(words, PAPER, np.zeros((1, 4), dtype=np.int64))
+    tables = compile_controllers([RuleSet()], [0.0] * 3)
+    group = batch.Group(tables, PAPER, np.zeros((1, 4), dtype=np.int64))
     group.robots["x"][:2, 0], group.robots["y"][:2, 0] = 0.25, 0.5
     group.run(0, 5)
     x, y = group.robots["x"][:, 0], group.robots["y"][:, 0]
@@ -72,8 +69,8 @@ def test_robots_at_the_very_same_place_part():
 
 
 def test_a_target_of_length_zero_is_straight_ahead():
-    words = encode_tables([ControlTable.compile(RuleSet())], 0.0)
-    group = batch.Group(words, PAPER.with_changes(robots=1), np.zeros((1, 4), dtype=np.int64))
+    tables = compile_controllers([RuleSet()], [0.0] * 3)
+    group = batch.Group(tables, PAPER.with_changes(robots=1), np.zeros((1, 4), dtype=np.int64))
     robot = group.robots
     robot["x"], robot["y"], robot["cos"], robot["sin"] = 0.0, 0.0, 0.6, 0.8
     robot["walk_x"], robot["walk_y"], robot["walk_until"] = 0.0, 0.0, 1000
@@ -82,37 +79,10 @@ def test_a_target_of_length_zero_is_straight_ahead():
     assert robot["y"][0, 0] == pytest.approx(0.008)
 
 
-@given(
-    st.lists(plain_rule_sets(probabilities=any_probabilities), min_size=1, max_size=3),
-    st.sampled_from([0.0, 0.08, 1.0]),
-)
-@settings(max_examples=30, deadline=None)
-def test_slots_have_the_probabilities_of_the_table(rule_sets, zone_miss):
-    tables = [ControlTable.compile(rule_set) for rule_set in rule_sets]
-    words = encode_tables(tables, zone_miss)
-    for table, all_slots, bits in zip(tables, words.words, words.slot_bits, strict=True):
-        slots = all_slots[:, : 1 << int(bits)].astype(int)
-        for carried, behaviour, want, zones in itertools.product(
-            (0, 1), range(3), (0, 1), range(3)
-        ):
-            noticed, missed = (
-                table.probabilities[table.indexing.situation(4 * carried + z, behaviour, want)]
-                for z in (zones, 0)
-            )
-            expected = (1 - zone_miss) * noticed + zone_miss * missed
-            found = np.zeros(24)
-            for word in slots[16 * zones + 8 * carried + 2 * behaviour + want]:
-                share = (word >> 10) / 2**22 / len(slots[0])
-                found[word >> 5 & 31] += share
-                found[word & 31] += 1 / len(slots[0]) - share
-            np.testing.assert_allclose(found, expected, atol=1e-6)
-            assert not np.any((found > 0) & (expected == 0))
-
-
 @njit
 def evaluated(x, bits):
     cos, sin = np.cos(x.astype(np.float64)), np.sin(x.astype(np.float64))
-    results = np.empty((len(x), 8))
+    results = np.empty((len(x), 9))
     for k in range(len(x)):
         turn_cos, turn_sin = single.cos_sin(np.float32(x[k] / 2))
         along, across = single.heading(bits[k])
@@ -125,6 +95,7 @@ def evaluated(x, bits):
             across,
             single.fraction(bits[k]),
             single.inverse_root(np.float32(0.0)),
+            single.half_turns(np.float32(10 * x[k])),
         )
     return results
 
@@ -132,7 +103,7 @@ def evaluated(x, bits):
 def test_errors_of_single_precision_functions_are_within_their_bounds():
     x = np.linspace(-math.pi, math.pi, 100_001).astype(np.float32)
     bits = np.linspace(0, 2**32 - 1, len(x)).astype(np.uint32)
-    angle, cos, sin, root, along, across, fraction, of_zero = evaluated(x, bits).T
+    angle, cos, sin, root, along, across, fraction, of_zero, turned = evaluated(x, bits).T
     wide = x.astype(np.float64)
     assert np.abs(np.angle(np.exp(1j * (angle - wide)))).max() < 3e-6
     assert np.abs(cos - np.cos(wide / 2)).max() < 6e-7
@@ -144,3 +115,5 @@ def test_errors_of_single_precision_functions_are_within_their_bounds():
     assert np.abs(fraction - bits / 2**32).max() < 2**-24
     assert fraction.max() < 1
     assert np.isfinite(of_zero).all()
+    assert np.abs(turned).max() < math.pi + 1e-5
+    assert np.abs(np.angle(np.exp(1j * (turned - 10 * wide)))).max() < 5e-6

@@ -1,4 +1,4 @@
-"""The search for neighbours by grid finds what comparing each with each finds."""
+"""The pairs that are listed now and then are those that comparing each with each finds."""
 
 import math
 
@@ -33,9 +33,9 @@ def test_a_crowd_is_the_oracle(rules):
         twin.step(oracle.by_rules(rule_set))
         seen = world.state
         expected = [(robot.x, robot.y) for robot in twin.robots]
-        np.testing.assert_allclose(np.stack([seen.x, seen.y], axis=1), expected, atol=1e-9)
+        np.testing.assert_allclose(np.stack([seen.x, seen.y], axis=1), expected, atol=1e-4)
     assert (world.picked, world.collected) == (twin.picked, twin.collected)
-    np.testing.assert_allclose(world.state.objects, twin.objects, atol=1e-12)
+    np.testing.assert_allclose(world.state.objects, twin.objects, atol=1e-6)
 
 
 @given(
@@ -46,7 +46,7 @@ def test_a_crowd_is_the_oracle(rules):
     st.integers(0, 100),
 )
 @settings(max_examples=25, deadline=None)
-def test_grid_and_all_pairs_agree_in_any_arena(robots, width, length, rab_range, seed):
+def test_listed_and_all_pairs_are_the_same_in_any_arena(robots, width, length, rab_range, seed):
     with pytest.MonkeyPatch.context() as patch:
         scenario = PAPER.with_changes(
             robots=min(robots, int(20 * width)),
@@ -61,10 +61,8 @@ def test_grid_and_all_pairs_agree_in_any_arena(robots, width, length, rab_range,
     for _ in range(5):
         one.step()
         other.step()
-        dx, dy = one.state.x - other.state.x, one.state.y - other.state.y
-        # Where three touch at once, the order in which pairs are pushed apart matters a little.
-        assert np.median(np.hypot(dx, dy)) < 1e-9
-        assert np.hypot(dx, dy).max() < 0.01
+        assert np.array_equal(one.state.x, other.state.x)
+        assert np.array_equal(one.state.y, other.state.y)
 
 
 def deepest_overlap(world):
@@ -102,7 +100,7 @@ def test_many_objects_are_found():
         wanted = ~before.carried & (seen.internal_states & 1).astype(bool)
         gaps, _ = cKDTree(before.objects).query(np.stack([before.x, before.y], axis=1))
         takes = seen.carried & ~before.carried
-        assert np.all(gaps[takes] <= scenario.grip_reach + 1e-9)
+        assert np.all(gaps[takes] <= scenario.grip_reach + 1e-6)
         # An object may have been taken by another robot in the same step.
         missed = wanted & ~seen.carried & (gaps <= scenario.grip_reach)
         assert missed.sum() <= takes.sum()

@@ -10,6 +10,7 @@ from geswarm.rules import (
     Rule,
     RuleSet,
     RuleSetError,
+    Space,
     StateChange,
     load_preset,
 )
@@ -35,7 +36,7 @@ def test_start():
     assert np.all(seen.y < -scenario.length / 2 + scenario.nest)
     assert np.ptp(seen.x) > scenario.width / 2
     assert np.all(seen.behaviour == FORAGING.behaviour_index["RANDOM_WALK"])
-    assert np.all(seen.internal_states == FORAGING.initial_states)
+    assert np.all(seen.internal_states == Space.of(FORAGING).initial_states)
     assert not seen.carried.any()
     assert np.all(seen.last_rule == -1)
     gaps = np.hypot(seen.x[:, None] - seen.x, seen.y[:, None] - seen.y)[np.triu_indices(20, 1)]

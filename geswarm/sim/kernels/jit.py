@@ -42,8 +42,15 @@ _prefer_wide_vectors()
 
 _OPTIONS: Any = {"error_model": "numpy", "_nrt": False}
 
-inlined: Any = numba.njit(forceinline=True, **_OPTIONS)
+_ALONE: Any = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+inlined: Any = numba.njit(forceinline=True, **_ALONE, **_OPTIONS)
 """For functions that kernels call."""
+
+called: Any = numba.njit(**_ALONE, **_OPTIONS)
+"""The same for long ones that are called in many places, where speed is not all."""
+
+kernel_in_memory: Any = numba.njit(nogil=True, **_OPTIONS)
+"""For functions that Python calls, where nothing can be kept."""
 
 
 def kernel(function: Callable[..., Any]) -> Any:

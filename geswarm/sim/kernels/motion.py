@@ -1,105 +1,92 @@
-"""The second half of a control step: target, wheels, motion."""
+"""How robots move: wheels, rotation, advance, and bodies that push each other apart."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from geswarm.sim.kernels.draws import WALK_HEADING, WALK_TIME
 from geswarm.sim.kernels.jit import inlined
-from geswarm.sim.kernels.placement import restart_walk
-from geswarm.sim.kernels.state import ANTI_PHOTOTAXIS, RANDOM_WALK, Physics
-
-STRAIGHT_BEHIND = 1e-9
-"""A target that is behind the robot to within this angle (rad) is turned to by the left.
-
-A robot that drives towards the light until its heading is exact, and then is to drive away from it,
-would else turn by the left or by the right according to the last bit of a rounding error, which
-differs between machines.
-"""
+from geswarm.sim.kernels.single import (
+    HALF,
+    ONE,
+    TWO,
+    ZERO,
+    F,
+    above_zero,
+    angle_of,
+    cos_sin,
+    fma,
+    half_turns,
+)
 
 
 @inlined
-def _angle(x: float, y: float) -> float:
-    """atan2(y, x) to 2e-14, without branches, which is what makes it fast; (0, 0) has angle 0.
+def wheels(
+    to_x: Any,
+    to_y: Any,
+    cos: Any,
+    sin: Any,
+    max_speed: Any,
+    turn_gain: Any,
+    wheel_base: Any,
+    control_step: Any,
+) -> tuple[Any, Any]:
+    """Angle (rad) and way (m) of one step, from the target vector (Turgut et al. 2008).
 
-    The ratio of the smaller to the larger coordinate is brought down to tan(pi / 8) by the addition
-    theorem; the polynomial interpolates the arctangent at Chebyshev nodes.
+    A target of length zero is straight ahead.
     """
-    low, high = min(abs(x), abs(y)), max(abs(x), abs(y))
-    beyond = low > 0.41421356237309503 * high
-    z = (low - high if beyond else low) / (low + high if beyond else high)
-    q = z * z
-    q2 = q * q
-    q4 = q2 * q2
-    low_terms = (0.9999999999999732 - 0.33333333330803444 * q) + q2 * (
-        0.19999999604891977 - 0.14285690423839287 * q
-    )
-    high_terms = (0.11110385046148014 - 0.09078392072943424 * q) + q2 * (
-        0.07563703551915192 - 0.05874505621307831 * q
-    )
-    series = low_terms + q4 * (high_terms + q4 * 0.030662440370424447)
-    angle = z * series + (math.pi / 4.0 if beyond else 0.0)
-    angle = math.pi / 2.0 - angle if abs(y) > abs(x) else angle
-    angle = math.pi - angle if x < 0.0 else angle
-    return math.copysign(angle, y) if high > 0.0 else 0.0
+    ahead = fma(to_x, cos, to_y * sin)
+    left = fma(to_y, cos, -to_x * sin)
+    length = F(math.sqrt(fma(ahead, ahead, left * left)))
+    forward = ahead / length if length > ZERO else ONE
+    sideways = left / length if length > ZERO else ZERO
+    speed = max_speed * above_zero(forward)
+    turn = turn_gain * angle_of(forward, sideways)
+    slowed = max_speed / fma(abs(turn), HALF * wheel_base, speed)
+    seconds = control_step * (slowed if slowed < ONE else ONE)
+    return turn * seconds, speed * seconds
 
 
 @inlined
-def _cos_sin(angle: float) -> tuple[float, float]:
-    """Cosine and sine; series for the small turns of one control step."""
-    if abs(angle) > 0.2:
-        return math.cos(angle), math.sin(angle)
-    q = angle * angle
-    q2 = q * q
-    cos = (1 - q / 2) + q2 * ((1 / 24 - q * (1 / 720)) + q2 * (1 / 40320 - q * (1 / 3628800)))
-    sin = (1 - q * (1 / 6)) + q2 * ((1 / 120 - q * (1 / 5040)) + q2 * (1 / 362880))
-    return cos, angle * sin
+def turn(cos: Any, sin: Any, angle: Any) -> Any:
+    """Direction after a turn of at most a quarter, and what makes its length 1 again."""
+    return _turned(cos, sin, *cos_sin(angle))
 
 
 @inlined
-def _target(physics: Physics, robot: Any, step: int) -> tuple[float, float]:
-    """Target vector of the behaviour plus the avoidance vector."""
-    x, y = robot.x, robot.y
-    if robot.behaviour == RANDOM_WALK:
-        if step >= robot.walk_until:
-            restart_walk(physics, robot, step, WALK_HEADING, WALK_TIME)
-        tx, ty = robot.walk_x, robot.walk_y
-    else:
-        dy = physics.light_y - y
-        scale = 1.0 / math.sqrt(x * x + dy * dy)
-        if robot.behaviour == ANTI_PHOTOTAXIS:
-            scale = -scale
-        tx, ty = -x * scale, dy * scale
-    near = physics.radius + physics.proximity_range  # a wall is sensed nearer than this
-    per_range = 1.0 / physics.proximity_range
-    west = max(0.0, near - (physics.half_width + x))
-    east = max(0.0, near - (physics.half_width - x))
-    south = max(0.0, near - (physics.half_length + y))
-    north = max(0.0, near - (physics.half_length - y))
-    tx += physics.avoidance_gain * (robot.away_x + per_range * (west - east))
-    ty += physics.avoidance_gain * (robot.away_y + per_range * (south - north))
-    return tx, ty
+def turn_far(cos: Any, sin: Any, angle: Any) -> Any:
+    """Direction after a turn of any angle, and what makes its length 1 again."""
+    c, s = cos_sin(HALF * half_turns(angle))
+    return _turned(cos, sin, fma(-TWO * s, s, ONE), TWO * s * c)
 
 
 @inlined
-def move(physics: Physics, robot: Any, step: int) -> None:
-    """Wheel speeds from the target vector (Turgut et al. 2008); rotate, then advance."""
-    tx, ty = _target(physics, robot, step)
-    cos, sin = robot.cos, robot.sin
-    ahead = tx * cos + ty * sin
-    left = ty * cos - tx * sin
-    length = math.sqrt(ahead * ahead + left * left)
-    alpha = _angle(ahead, left)
-    if alpha < STRAIGHT_BEHIND - math.pi:
-        alpha += 2.0 * math.pi
-    forward = physics.max_speed * (max(0.0, ahead / length) if length > 0.0 else 1.0)
-    turn = physics.turn_gain * alpha
-    fastest = forward + abs(turn) * physics.wheel_base / 2.0
-    if fastest > physics.max_speed:
-        forward *= physics.max_speed / fastest
-        turn *= physics.max_speed / fastest
-    c, s = _cos_sin(turn * physics.control_step)
-    robot.cos, robot.sin = cos * c - sin * s, sin * c + cos * s
-    robot.x += forward * physics.control_step * robot.cos
-    robot.y += forward * physics.control_step * robot.sin
+def _turned(cos: Any, sin: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
+    cos, sin = fma(cos, c, -sin * s), fma(sin, c, cos * s)
+    return cos, sin, fma(-HALF, fma(cos, cos, sin * sin), F(1.5))  # rounding must not add up
+
+
+@inlined
+def advance_exactly(high: Any, low: Any, way: Any, along: Any) -> tuple[Any, Any]:
+    """A coordinate with its low part after a way; nothing is lost, however far from the origin."""
+    step = fma(way, along, low)
+    place = high + step
+    behind = place - high
+    return place, (high - (place - behind)) + (step - behind)
+
+
+@inlined
+def push_apart(one: Any, i: int, other: Any, j: int, radius: Any) -> None:
+    """Move both by half of their overlap; east and west if they are at the very same place."""
+    dx = one.x[i] - other.x[j]
+    dy = one.y[i] - other.y[j]
+    d2 = fma(dx, dx, dy * dy)
+    if d2 >= TWO * TWO * radius * radius:
+        return
+    d = F(math.sqrt(d2))
+    push = radius - HALF * d
+    dx, dy = (dx / d, dy / d) if d > ZERO else (ONE, ZERO)
+    one.x[i] += push * dx
+    one.y[i] += push * dy
+    other.x[j] -= push * dx
+    other.y[j] -= push * dy

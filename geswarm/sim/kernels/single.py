@@ -20,6 +20,7 @@ wider number would halve the lanes of a vector."""
 
 ZERO, HALF, ONE, TWO = F(0.0), F(0.5), F(1.0), F(2.0)
 _QUARTER_TURN, _HALF_TURN = F(math.pi / 2.0), F(math.pi)
+_PER_TURN = F(0.5 / math.pi)
 _PER_2_24 = F(2.0**-24)
 _BEHIND = F(1e-6)  # straight behind: the sine of half a turn is 0 but for rounding
 
@@ -103,3 +104,10 @@ def angle_of(cos: Any, sin: Any) -> Any:
     angle = angle if across < along else _QUARTER_TURN - angle
     angle = angle if cos >= ZERO else _HALF_TURN - angle
     return angle if sin >= -_BEHIND else -angle
+
+
+@inlined
+def half_turns(angle: Any) -> Any:
+    """The same angle in [-pi, pi], for angles of some turns."""
+    nearest = fma(angle, _PER_TURN, HALF if angle >= ZERO else -HALF)
+    return fma(F(I(nearest)), -TWO * _HALF_TURN, angle)

@@ -1,92 +1,607 @@
-"""Control tables for drawing by one number: the alias method (Walker 1977).
+"""Control tables: a rule set as the outcome distribution of each situation, drawn by one number.
 
-A situation's outcomes are spread over a power of two of slots of equal probability, each shared by
-at most two outcomes. The upper bits of a random number choose the slot, the next bits which of the
-two: one look-up, whatever the number of outcomes. What differs between the lasting states is a
-situation: DROP_OBJECT is always false when a step begins, and a missed zone is mixed into the
-probabilities.
+    readings -> code -> class -> row (class, behaviour) -> slot -> outcome
+
+The readings of the sensors are one mixed-radix number, the code. Codes in which the same rules may
+act are one class. A row's outcomes are spread over a power of two of slots of equal probability,
+each shared by at most two (alias method, Walker 1977): the upper bits of a random number choose the
+slot, the next ones which of the two.
+
+An outcome says how the robot's registers change, not what they become, so they are no part of the
+row: first clear bits, then set bits; add to the counter, then keep it between two bounds. What a
+rule set makes of a register that is read as a sensor is known, and so outcomes that come to the
+same are one.
+
+| bits of an outcome | |
+| --- | --- |
+| 0 | the behaviour was changed to and starts afresh |
+| 1-5 | behaviour, as the rule set numbers it |
+| 6-13, 14-21 | bits of the registers to clear, to set |
+| 22-25, 26-28, 29-31 | added to the counter, plus 8; its least and greatest value then |
+
+A reading that fails as a whole is mixed in: a code's distribution becomes that of what is read.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from geswarm.sim.kernels.jit import inlined, kernel
+from geswarm.sim.kernels.jit import called, inlined, kernel
 
-THRESHOLD_BITS, OUTCOME_BITS = 22, 5
-"""A slot's 32-bit word: how often the first outcome is chosen, the first and the other outcome."""
-MEMORIES = 16
-"""Situations per combination of zones; numbered zones * MEMORIES + memory."""
+ROW_BEHAVIOURS = 16
+"""Rows of a class; the most behaviours that a rule set can have."""
+MOST_OUTCOMES = 128
+"""Of one row."""
+MOST_RULES = 64
+"""Of a rule set, with one for each bit of a register that it changes and that is read."""
+THRESHOLD_BITS = 22
+"""Of a slot's 32: as fine as it was when results were published that must come out again."""
+IDENTITY = (8 << 22) | (7 << 29)
+"""No change: of registers, nothing cleared or set; of the counter, 0 added, from 0 to 7."""
 
-_OUTCOME_MASK = np.uint32((1 << OUTCOME_BITS) - 1)
+_ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
+_ONE = np.uint64(1)
+_UNKNOWN, _ALWAYS_0, _ALWAYS_1 = -1, -2, -3
+_OPERATIONS = 0xFFFFFFC0
+
+
+class Encoded(NamedTuple):
+    """Rule sets in numbers, one after the other.
+
+    Attributes:
+        values: int64, how many values each reading has.
+        fails: float64, with which probability each reading is 0 whatever it should be.
+        known: int64, for each bit of the registers the reading that tells it at the start of a
+            step, -1 for none, -2 and -3 for always 0 and 1.
+        known_shift: int64, which bit of that reading.
+        rule_ends: int64, shape (rule sets,), where the rules of each end.
+        instances: int64, shape (rule sets,), how many behaviours each has.
+        restarting: int64, shape (rule sets,), mask of those that start afresh when changed to.
+        accepted: uint64, shape (rules, readings), values with which a rule may act, as bits.
+        behaviours: int64, shape (rules,), mask of the behaviours in which it may act.
+        action_ends: int64, shape (rules,), where the actions of each end.
+        chances: float64, shape (actions,).
+        targets: int64, shape (actions,), behaviour to change to, -1 for none.
+        changes: int64, shape (actions, 5): bits to clear and to set; added to the counter, its
+            least and greatest value.
+    """
+
+    values: Any
+    fails: Any
+    known: Any
+    known_shift: Any
+    rule_ends: Any
+    instances: Any
+    restarting: Any
+    accepted: Any
+    behaviours: Any
+    action_ends: Any
+    chances: Any
+    targets: Any
+    changes: Any
+
+
+class Tables(NamedTuple):
+    """Control tables, one after the other; what `begins` says are positions in the flat arrays.
+
+    Attributes:
+        classes: uint16, the class of each code.
+        rows: uint32, for each class and behaviour the first slot << 3 | logarithm of the slots.
+        thresholds: uint32, random bits below this choose the slot's first outcome.
+        outcomes: uint32, two for each slot.
+        begins: int64, shape (tables, 3): first code, first row, slots so far.
+    """
+
+    classes: Any
+    rows: Any
+    thresholds: Any
+    outcomes: Any
+    begins: Any
+
+
+class Room(NamedTuple):
+    """Working space for one rule set.
+
+    Attributes:
+        class_key: uint64, shape (readings, 64), which rules a value of a reading lets through.
+        signatures: uint64, shape (3, codes).
+        halves: uint16, shape (2, codes).
+        pair_class: int32, shape (codes, codes) or as many as there may be.
+        class_of_code: int32, shape (2, codes).
+        start: int64, shape (2, classes): known values of the registers' bits in each class.
+        keys: int64, shape (2, rows, MOST_OUTCOMES), outcomes of each class and behaviour, sorted.
+        shares: float64, likewise, how probable.
+        lengths: int64, shape (2, rows), how many.
+        few_keys: int64, shape (2, 2 * MOST_OUTCOMES).
+        few_shares: float64, shape (3, 2 * MOST_OUTCOMES).
+    """
+
+    class_key: Any
+    signatures: Any
+    halves: Any
+    pair_class: Any
+    class_of_code: Any
+    start: Any
+    keys: Any
+    shares: Any
+    lengths: Any
+    few_keys: Any
+    few_shares: Any
 
 
 @inlined
-def memory_of(carried: int, behaviour: int, want: int) -> int:
-    """What a robot keeps from one step to the next, as a number."""
-    return carried << 3 | behaviour << 1 | want
-
-
-@inlined
-def slot_of(bits: np.uint32, slot_bits: int) -> Any:
-    """The slot that random bits choose."""
+def slot_of(bits: Any, slot_bits: Any) -> Any:
+    """The slot of 2**slot_bits that random bits choose."""
     return np.uint32(
         np.uint32(bits >> np.uint32(1)) >> np.uint32(np.uint32(31) - np.uint32(slot_bits))
     )
 
 
-@inlined
-def outcome_of(word: np.uint32, bits: np.uint32, slot_bits: int) -> Any:
-    """The outcome that random bits choose from a slot's word."""
-    chance = np.uint32(np.uint32(bits << np.uint32(slot_bits)) >> np.uint32(32 - THRESHOLD_BITS))
-    first = np.uint32(np.uint32(word >> np.uint32(OUTCOME_BITS)) & _OUTCOME_MASK)
-    other = np.uint32(word & _OUTCOME_MASK)
-    return first if chance < np.uint32(word >> np.uint32(2 * OUTCOME_BITS)) else other
+@called
+def _order(key: int, start: int) -> Any:
+    """Outcomes are sorted by behaviour, then what the registers become, then restart."""
+    clears, sets = (key >> 6) & 255, (key >> 14) & 255
+    becomes = (start & ~clears) | sets
+    return (((((key >> 1) & 31) << 8 | becomes) << 1 | (key & 1)) << 18) | (key >> 22 << 8) | clears
 
 
-def build_fill_slots(version: int) -> Any:
-    """The kernel that makes words of probabilities; `version` becomes part of its cache key."""
-
-    @kernel
-    def fill_slots(probabilities: Any, words: Any, shares: Any, outcomes: Any) -> int:
-        """Write the slots of each situation.
-
-        Args:
-            probabilities: float64, shape (situations, outcomes), rows sum to 1.
-            words: uint32, shape (situations, slots); slots >= possible outcomes of any situation.
-            shares: Working space, float64, shape (slots,).
-            outcomes: Working space, uint32, shape (slots,).
-        """
-        for situation in range(len(words)):
-            used = 0
-            for k in range(probabilities.shape[1]):
-                if probabilities[situation, k] > 0.0:
-                    shares[used] = probabilities[situation, k] * len(shares)
-                    outcomes[used] = k
-                    used += 1
-            shares[used:] = 0.0
-            outcomes[used:] = outcomes[0]
-            _pair_up(shares, outcomes, words[situation])
-        return version
-
-    return fill_slots
+@called
+def _changed(key: int, changes: Any, start: int, known: int) -> Any:
+    """The outcome after one more change of registers."""
+    clears = ((key >> 6) & 255) | changes[0]
+    sets = (((key >> 14) & 255) & ~changes[0]) | changes[1]
+    # Of what is known only what differs in the end is a change.
+    becomes = (start & ~clears) | sets
+    differs = (becomes ^ start) & known
+    clears = (clears & ~known) | differs
+    sets = (sets & ~known) | (becomes & differs)
+    added, least, most = changes[2], changes[3], changes[4]
+    low = min(max(((key >> 26) & 7) + added, least), most)
+    high = min(max(((key >> 29) & 7) + added, least), most)
+    total = min(max(((key >> 22) & 15) - 8 + added, -7), 7)
+    return (
+        (key & 63) | (clears << 6) | (sets << 14) | ((total + 8) << 22) | (low << 26) | (high << 29)
+    )
 
 
-@inlined
-def _pair_up(shares: Any, outcomes: Any, words: Any) -> None:
+@called
+def _insert(keys: Any, shares: Any, length: int, key: int, start: int) -> Any:
+    """Where an outcome is in a sorted list, inserted with probability 0 if it was not there.
+
+    The list is longer by one then: the caller compares.
+    """
+    order = _order(key, start)
+    at = 0
+    while at < length and _order(keys[at], start) < order:
+        at += 1
+    if at == length or keys[at] != key:
+        for k in range(length, at, -1):
+            keys[k], shares[k] = keys[k - 1], shares[k - 1]
+        keys[at], shares[at] = key, 0.0
+    return at
+
+
+@called
+def _act(
+    chance: float, target: int, changes: Any, restarting: int, start: int, known: int,
+    keys: Any, shares: Any, length: int, before_keys: Any, before: Any,
+) -> Any:  # fmt: skip
+    """Mix in what an action does; the new length of the list, or -1 if it is too long."""
+    for k in range(length):
+        before_keys[k], before[k] = keys[k], shares[k]
+    old = length
+    for k in range(old):  # room for all outcomes first: done sums up in their order
+        key = _after(before_keys[k], target, changes, restarting, start, known)
+        at = _find(keys, length, key)
+        if at < 0:
+            if length == MOST_OUTCOMES:
+                return -1
+            _insert(keys, shares, length, key, start)
+            length += 1
+    for k in range(length):
+        shares[k] *= 1.0 - chance
+    done = before[MOST_OUTCOMES:]
+    done[:length] = 0.0
+    for k in range(old):
+        key = _after(before_keys[k], target, changes, restarting, start, known)
+        done[_find(keys, length, key)] += before[k]
+    for k in range(length):
+        shares[k] += chance * done[k]
+    return _without_zeros(keys, shares, length)
+
+
+@called
+def _after(key: int, target: int, changes: Any, restarting: int, start: int, known: int) -> Any:
+    """The outcome after an action."""
+    if target < 0:
+        return _changed(key, changes, start, known)
+    if (key >> 1) & 31 == target:
+        return key
+    return (key & _OPERATIONS) | (target << 1) | ((restarting >> target) & 1)
+
+
+@called
+def _find(keys: Any, length: int, key: int) -> Any:
+    for k in range(length):
+        if keys[k] == key:
+            return k
+    return -1
+
+
+@called
+def _without_zeros(keys: Any, shares: Any, length: int) -> Any:
+    kept = 0
+    for k in range(length):
+        if shares[k] > 0.0:
+            keys[kept], shares[kept] = keys[k], shares[k]
+            kept += 1
+    return kept
+
+
+@called
+def _decide(encoded: Any, room: Any, number: int, row: int, behaviour: int, signature: Any,
+            start: int, known: int) -> bool:  # fmt: skip
+    """Outcomes of one class and behaviour; False if they are too many."""
+    first_rule = encoded.rule_ends[number - 1] if number else 0
+    keys, shares = room.keys[0, row], room.shares[0, row]
+    active_keys, active = room.few_keys[0], room.few_shares[0]
+    keys[0], shares[0], length = (behaviour << 1) | IDENTITY, 1.0, 1
+    restarting = encoded.restarting[number]
+    for rule in range(first_rule, encoded.rule_ends[number]):
+        if not (signature >> np.uint64(rule - first_rule)) & _ONE:
+            continue
+        acting, waiting = 0, 0
+        for k in range(length):
+            if (encoded.behaviours[rule] >> ((keys[k] >> 1) & 31)) & 1:
+                active_keys[acting], active[acting] = keys[k], shares[k]
+                acting += 1
+            else:
+                keys[waiting], shares[waiting] = keys[k], shares[k]
+                waiting += 1
+        first_action = encoded.action_ends[rule - 1] if rule else 0
+        if acting:
+            for a in range(first_action, encoded.action_ends[rule]):
+                acting = _act(
+                    encoded.chances[a], encoded.targets[a], encoded.changes[a], restarting, start,
+                    known, active_keys, active, acting, room.few_keys[1], room.few_shares[1],
+                )  # fmt: skip
+                if acting < 0:
+                    return False
+        length = waiting
+        for k in range(acting):
+            if length == MOST_OUTCOMES and _find(keys, length, active_keys[k]) < 0:
+                return False
+            at = _find(keys, length, active_keys[k])
+            if at < 0:
+                at = _insert(keys, shares, length, active_keys[k], start)
+                length += 1
+            shares[at] += active[k]
+    room.lengths[0, row] = length
+    return True
+
+
+@called
+def _distinct(room: Any, values: Any, first: int, end: int, codes: int, half: int) -> int:
+    """Number the distinct sets of rules that some of the readings let through."""
+    found = 0
+    for code in range(codes):
+        signature, rest = _ALL, code
+        for reading in range(first, end):
+            signature &= room.class_key[reading, rest % values[reading]]
+            rest //= values[reading]
+        at = 0
+        while at < found and room.signatures[half, at] != signature:
+            at += 1
+        if at == found:
+            room.signatures[half, at] = signature
+            found += 1
+        room.halves[half, code] = at
+    return found
+
+
+@called
+def _classify(encoded: Any, room: Any) -> int:
+    """The class of each code, by which rules may act; how many classes there are.
+
+    The readings are taken in two halves, so that only their distinct sets of rules are compared.
+    """
+    values, readings = encoded.values, len(encoded.values)
+    codes = 1
+    for reading in range(readings):
+        codes *= values[reading]
+    half, low_codes = 0, 1
+    while half < readings and low_codes * values[half] * low_codes <= codes * 2:
+        low_codes *= values[half]
+        half += 1
+    lows = _distinct(room, values, 0, half, low_codes, 0)
+    highs = _distinct(room, values, half, readings, codes // low_codes, 1)
+    classes = 0
+    for high in range(highs):
+        for low in range(lows):
+            signature = room.signatures[0, low] & room.signatures[1, high]
+            at = 0
+            while at < classes and room.signatures[2, at] != signature:
+                at += 1
+            if at == classes:
+                if classes == room.start.shape[1]:
+                    return -1
+                room.signatures[2, at] = signature
+                classes += 1
+            room.pair_class[high, low] = at
+    for code in range(codes):
+        high, low = room.halves[1, code // low_codes], room.halves[0, code % low_codes]
+        room.class_of_code[0, code] = room.pair_class[high, low]
+    return classes
+
+
+@called
+def _let_through(encoded: Any, room: Any, number: int) -> int:
+    """Which rules each value of each reading lets through; the mask of the known bits.
+
+    The bits of a register that the rules change and a sensor reads are rules like any other here:
+    where they differ, so do the outcomes.
+    """
+    first_rule = encoded.rule_ends[number - 1] if number else 0
+    rules = encoded.rule_ends[number] - first_rule
+    first_action = encoded.action_ends[first_rule - 1] if first_rule else 0
+    last_action = encoded.action_ends[first_rule + rules - 1] if rules else first_action
+    touched = 0
+    for a in range(first_action, last_action):
+        touched |= encoded.changes[a, 0]
+    for reading in range(len(encoded.values)):
+        for value in range(encoded.values[reading]):
+            key = _ALL
+            for rule in range(rules):
+                if not (encoded.accepted[first_rule + rule, reading] >> np.uint64(value)) & _ONE:
+                    key ^= _ONE << np.uint64(rule)
+            room.class_key[reading, value] = key
+    known, extra = 0, rules
+    for bit in range(len(encoded.known)):
+        reading = encoded.known[bit]
+        if reading == _UNKNOWN:
+            continue
+        known |= 1 << bit
+        if reading >= 0 and (touched >> bit) & 1:
+            for value in range(encoded.values[reading]):
+                if not (value >> encoded.known_shift[bit]) & 1:
+                    room.class_key[reading, value] ^= _ONE << np.uint64(extra)
+            extra += 1
+    return known if extra <= MOST_RULES else -1
+
+
+@called
+def _starts(encoded: Any, room: Any, codes: int) -> None:
+    """What is known of the registers in each class: one of its codes says it for all."""
+    for code in range(codes):
+        start = 0
+        for bit in range(len(encoded.known)):
+            reading = encoded.known[bit]
+            if reading == _ALWAYS_1:
+                start |= 1 << bit
+            elif reading >= 0:
+                rest = code
+                for other in range(reading):
+                    rest //= encoded.values[other]
+                value = rest % encoded.values[reading]
+                start |= ((value >> encoded.known_shift[bit]) & 1) << bit
+        room.start[0, room.class_of_code[0, code]] = start
+
+
+@called
+def _mix(encoded: Any, room: Any, reading: int, codes: int, classes: int, behaviours: int) -> int:
+    """A reading that fails is mixed in: classes become pairs of what is there and what is read."""
+    stride = 1
+    for other in range(reading):
+        stride *= encoded.values[other]
+    fails = encoded.fails[reading]
+    room.pair_class[:classes, :classes] = -1
+    mixed = 0
+    for code in range(codes):
+        value = code // stride % encoded.values[reading]
+        seen, missed = room.class_of_code[0, code], room.class_of_code[0, code - value * stride]
+        if room.pair_class[seen, missed] < 0:
+            if mixed == room.start.shape[1]:
+                return -1
+            room.pair_class[seen, missed] = mixed
+            room.start[1, mixed] = room.start[0, seen]
+            for behaviour in range(behaviours):
+                one, other = seen * ROW_BEHAVIOURS + behaviour, missed * ROW_BEHAVIOURS + behaviour
+                row = mixed * ROW_BEHAVIOURS + behaviour
+                if not _mix_rows(room, one, other, row, fails, room.start[0, seen]):
+                    return -1
+            mixed += 1
+        room.class_of_code[1, code] = room.pair_class[seen, missed]
+    for code in range(codes):
+        room.class_of_code[0, code] = room.class_of_code[1, code]
+    for each in range(mixed):
+        room.start[0, each] = room.start[1, each]
+        for row in range(each * ROW_BEHAVIOURS, each * ROW_BEHAVIOURS + behaviours):
+            room.lengths[0, row] = room.lengths[1, row]
+            for k in range(room.lengths[0, row]):
+                room.keys[0, row, k] = room.keys[1, row, k]
+                room.shares[0, row, k] = room.shares[1, row, k]
+    return mixed
+
+
+@called
+def _mix_rows(room: Any, one: int, other: int, row: int, fails: float, start: int) -> bool:
+    """(1 - fails) of one row and `fails` of the other."""
+    keys, shares = room.keys[1, row], room.shares[1, row]
+    length = room.lengths[0, one]
+    for k in range(length):
+        keys[k], shares[k] = room.keys[0, one, k], (1.0 - fails) * room.shares[0, one, k]
+    for k in range(room.lengths[0, other]):
+        at = _find(keys, length, room.keys[0, other, k])
+        if at < 0:
+            if length == MOST_OUTCOMES:
+                return False
+            at = _insert(keys, shares, length, room.keys[0, other, k], start)
+            length += 1
+        shares[at] += fails * room.shares[0, other, k]
+    room.lengths[1, row] = _without_zeros(keys, shares, length)
+    return True
+
+
+@called
+def _spread(room: Any, tables: Any, row: int, slot: int, slots: int) -> None:
     """Fill up the emptiest slot from the fullest one, until all are full."""
+    keys, shares, length = room.few_keys[0], room.few_shares[0], room.lengths[0, row]
+    for k in range(slots):
+        shares[k] = room.shares[0, row, k] * slots if k < length else 0.0
+        keys[k] = room.keys[0, row, k if k < length else 0]
     full = 1 << THRESHOLD_BITS
-    done = 2.0 * len(words)  # more than any share
-    for _ in range(len(words)):
+    done = 2.0 * slots  # more than any share
+    for _ in range(slots):
         low, high = 0, -1
-        for k in range(len(words)):
+        for k in range(slots):
             low = k if shares[k] < shares[low] else low
             if shares[k] < done and (high < 0 or shares[k] > shares[high]):
                 high = k
         threshold = np.uint32(min(max(0.0, round(shares[low] * full)), full - 1.0))
-        words[low] = (threshold << 2 * OUTCOME_BITS) | (outcomes[low] << OUTCOME_BITS)
-        words[low] |= outcomes[high]  # the last slot is its own: low is high
-        shares[high] -= 1.0 - shares[low]
+        tables.thresholds[slot + low] = threshold << np.uint32(32 - THRESHOLD_BITS)
+        tables.outcomes[2 * (slot + low)] = np.uint32(keys[low])
+        tables.outcomes[2 * (slot + low) + 1] = np.uint32(keys[high])
+        shares[high] -= 1.0 - shares[low]  # the last slot is its own: low is high
         shares[low] = done
+
+
+@called
+def _write(room: Any, tables: Any, at: Any, classes: int, behaviours: int) -> bool:
+    """Slots of each distinct row, at `at` (code, row, slot) on; False if there is no room.
+
+    All rows with more than one outcome have as many slots as the longest needs.
+    """
+    most = 1
+    for row in range(classes * ROW_BEHAVIOURS):
+        if row % ROW_BEHAVIOURS < behaviours:
+            most = max(most, room.lengths[0, row])
+    slot_bits = 0
+    while (1 << slot_bits) < most:
+        slot_bits += 1
+    if at[1] + classes * ROW_BEHAVIOURS > len(tables.rows):
+        return False
+    slot = at[2]
+    for row in range(classes * ROW_BEHAVIOURS):
+        if row % ROW_BEHAVIOURS >= behaviours:
+            tables.rows[at[1] + row] = 0
+            continue
+        same = _same_row(room, row, behaviours)
+        if same >= 0:
+            tables.rows[at[1] + row] = tables.rows[at[1] + same]
+            continue
+        bits = slot_bits if room.lengths[0, row] > 1 else 0
+        if slot + (1 << bits) > len(tables.thresholds):
+            return False
+        tables.rows[at[1] + row] = np.uint32((slot << 3) | bits)
+        _spread(room, tables, row, slot, 1 << bits)
+        slot += 1 << bits
+    at[1] += classes * ROW_BEHAVIOURS
+    at[2] = slot
+    return True
+
+
+@called
+def _same_row(room: Any, row: int, behaviours: int) -> int:
+    """An earlier row with the same distribution, or -1."""
+    length = room.lengths[0, row]
+    for other in range(row):
+        if other % ROW_BEHAVIOURS >= behaviours or room.lengths[0, other] != length:
+            continue
+        same = True
+        for k in range(length):
+            same = same and room.keys[0, other, k] == room.keys[0, row, k]
+            same = same and room.shares[0, other, k] == room.shares[0, row, k]
+        if same:
+            return other
+    return -1
+
+
+@called
+def _unfold(dense: Any, encoded: Any, room: Any, codes: int, behaviours: int) -> int:
+    """Distributions that are given for each code, behaviour and outcome; each code is a class.
+
+    Args:
+        dense: float64, shape (codes, behaviours, outcomes); an outcome is (behaviour * states +
+            what the registers become) * 2 + restart.
+        encoded: What is known of the registers: all.
+        room: Working space.
+        codes: Number of codes.
+        behaviours: Number of behaviours.
+    """
+    states = dense.shape[2] // (2 * behaviours)
+    for code in range(codes):
+        room.class_of_code[0, code] = code
+    _starts(encoded, room, codes)
+    for code in range(codes):
+        start = room.start[0, code]
+        for behaviour in range(behaviours):
+            row, length = code * ROW_BEHAVIOURS + behaviour, 0
+            for outcome in range(dense.shape[2]):
+                if dense[code, behaviour, outcome] > 0.0:
+                    becomes = outcome // 2 % states
+                    differs = becomes ^ start
+                    key = IDENTITY | (outcome // 2 // states << 1) | (outcome & 1)
+                    room.keys[0, row, length] = key | (differs << 6) | ((becomes & differs) << 14)
+                    room.shares[0, row, length] = dense[code, behaviour, outcome]
+                    length += 1
+            room.lengths[0, row] = length
+    return codes
+
+
+def build_compile_tables(version: int) -> Any:
+    """The kernel that makes control tables; `version` becomes part of its cache key."""
+
+    @kernel
+    def compile_tables(encoded: Any, dense: Any, room: Any, tables: Any, first: int) -> int:
+        """Make the control tables of rule sets first, first + 1 ...
+
+        Args:
+            encoded: Of Encoded.
+            dense: float64, shape (rule sets, codes, behaviours, outcomes): what rule sets come to,
+                see `_unfold`; or no rule sets: it is worked out.
+            room: Of Room.
+            tables: Of Tables, with what has been made so far.
+            first: Which rule set to begin with.
+
+        Returns:
+            How many tables there are now: all, or fewer if there is no room in `tables`; -1 less
+            the number of a rule set that has too many outcomes, classes or rules.
+        """
+        codes = 1
+        for reading in range(len(encoded.values)):
+            codes *= encoded.values[reading]
+        for number in range(first, len(encoded.rule_ends)):
+            at = tables.begins[number]
+            behaviours = encoded.instances[number]
+            if len(dense):
+                classes = _unfold(dense[number], encoded, room, codes, behaviours)
+            else:
+                known = _let_through(encoded, room, number)
+                classes = _classify(encoded, room) if known >= 0 else -1
+                if classes < 0:
+                    return -1 - number
+                _starts(encoded, room, codes)
+                for each in range(classes):
+                    signature, start = room.signatures[2, each], room.start[0, each] & known
+                    for behaviour in range(behaviours):
+                        row = each * ROW_BEHAVIOURS + behaviour
+                        if not _decide(
+                            encoded, room, number, row, behaviour, signature, start, known
+                        ):
+                            return -1 - number
+            for reading in range(len(encoded.values)):
+                if encoded.fails[reading] > 0.0:
+                    classes = _mix(encoded, room, reading, codes, classes, behaviours)
+                    if classes < 0:
+                        return -1 - number
+            end = tables.begins[number + 1]
+            end[0], end[1], end[2] = at[0] + codes, at[1], at[2]
+            if not _write(room, tables, end, classes, behaviours):
+                return number
+            for code in range(codes):
+                tables.classes[at[0] + code] = room.class_of_code[0, code]
+        return len(encoded.rule_ends) + 0 * version
+
+    return compile_tables

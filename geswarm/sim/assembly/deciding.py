@@ -1,0 +1,163 @@
+"""Source of how robots sense and decide: by one draw from a control table, or rule by rule."""
+
+from __future__ import annotations
+
+from geswarm.sim.assembly.source import Source
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS
+
+
+def decide(source: Source) -> None:
+    """Sense and decide: the robot's behaviour and registers, and whether it starts afresh."""
+    if source.layout.rules:
+        _sense(source)
+        _interpret(source)
+        _count_decisions(source)
+    else:
+        _draw_from_table(source)
+    if source.parts.arguments:
+        _look_up_arguments(source)
+
+
+def _code(source: Source, readings: list[str]) -> str:
+    """The readings as one number, the first one counting least."""
+    code, size = "", 1
+    for sensor, reading in zip(source.parts.sensors, readings, strict=True):
+        code = f"U({reading})" if size == 1 else f"U({code} + U(U({reading}) * U({size})))"
+        size *= sensor.values
+    return code
+
+
+def _draw_from_table(source: Source) -> None:
+    source("# Sense: where the situation's class stands in the control table.")
+    with source.lanes():
+        for sensor in source.parts.sensors:
+            source(f"{sensor.name}_now = {source.call(sensor)}")
+        code = _code(source, [f"{sensor.name}_now" for sensor in source.parts.sensors])
+        source(f"work.place[lane] = U({code} + group.codes[lane])")
+        source("work.row[lane] = U(U(robot.behaviour[lane]) + group.rows[lane])")
+        source("low, high = robot.key_low[lane], robot.key_high[lane]")
+        source("work.bits[lane] = draw_bits(low, high, step, OUTCOME)")
+    source(
+        "# Decide: class, row, slot, which of its two outcomes. A look-up has a loop of its own."
+    )
+    with source.lanes():
+        source("work.word[lane] = U(classes[work.place[lane]])")
+    with source.lanes():
+        source(f"work.row[lane] = U(work.row[lane] + U(work.word[lane] * U({ROW_BEHAVIOURS})))")
+    with source.lanes():
+        source("work.word[lane] = rows[work.row[lane]]")
+    with source.lanes():
+        source("slot_bits = U(work.word[lane] & U(7))\nfirst_slot = U(work.word[lane] >> U(3))")
+        source("work.place[lane] = U(first_slot + slot_of(work.bits[lane], slot_bits))")
+        source("work.bits[lane] = U(work.bits[lane] << slot_bits)")
+    with source.lanes():
+        source("work.word[lane] = thresholds[work.place[lane]]")
+    with source.lanes():
+        source("other = U(work.bits[lane] >= work.word[lane])")
+        source("work.place[lane] = U(U(work.place[lane] << U(1)) + other)")
+    with source.lanes():
+        source("work.word[lane] = outcomes[work.place[lane]]")
+    with source.lanes():
+        source("outcome = I(work.word[lane])")
+        source("robot.behaviour[lane] = I(I(outcome >> I(1)) & I(31))")
+        source("work.restarts[lane] = I(outcome & I(1))")
+        if source.parts.registers:
+            source("clears, sets = I(I(outcome >> I(6)) & I(255)), I(I(outcome >> I(14)) & I(255))")
+            source("robot.state[lane] = I(I(robot.state[lane] & I(~clears)) | sets)")
+
+
+def _sense(source: Source) -> None:
+    source("# Sense; a reading may fail as a whole.")
+    failing = [sensor for sensor in source.parts.sensors if sensor.fails]
+    for number, sensor in enumerate(failing):
+        source(f"miss_{sensor.name} = misses[{number}].threshold")
+        source(f"may_miss_{sensor.name} = misses[{number}].possible")
+    with source.lanes():
+        source("low, high = robot.key_low[lane], robot.key_high[lane]")
+        for sensor in source.parts.sensors:
+            now = f"{sensor.name}_now"
+            source(f"{now} = {source.call(sensor)}")
+            if sensor.fails:
+                purpose = source.parts.purpose(sensor, sensor.fails)
+                source(f"drawn = draw_bits(low, high, step, {purpose})")
+                source(f"missed = I(may_miss_{sensor.name} & I(drawn <= miss_{sensor.name}))")
+                source(f"{now} = I({now} * I(I(1) - missed))")
+            source(f"work.{now}[lane] = {now}")
+        code = _code(source, [f"{sensor.name}_now" for sensor in source.parts.sensors])
+        source(f"seen = I(U({code} % U({source.parts.sensed_codes})))")
+        source("memory = I(I(robot.behaviour[lane] * I(STATES)) + robot.state[lane])")
+        source("work.memory[lane] = I(I(seen * I(BEHAVIOURS * STATES)) + memory)")
+        source("robot.percepts[lane] = seen")
+        source("work.restarts[lane] = I(0)")
+
+
+def _interpret(source: Source) -> None:
+    source("# Decide: rule by rule, all robots of the block at once.")
+    with source.inside("for r in range(len(rules)):"):
+        source("rule = rules[r]\nbehaviours, some = rule.behaviours, I(0)")
+        for number, sensor in enumerate(source.parts.sensors):
+            source(f"accepted_{sensor.name} = accepted[r, {number}]")
+        with source.lanes():
+            source("active = I(U(behaviours >> U(robot.behaviour[lane])) & U(1))")
+            for sensor in source.parts.sensors:
+                reading = f"work.{sensor.name}_now[lane]"
+                source(f"active = I(active & {_accepts(sensor.name, reading, sensor.values)})")
+            source("active = I(active & robot.exists[lane])")
+            source("work.active[lane], work.fired[lane] = active, I(0)\nsome = I(some | active)")
+        with source.inside("if some and rule.enabled:"):
+            with source.inside("for a in range(rule.first_action, rule.end_action):"):
+                _act(source)
+            source("fired = I(0)")
+            with source.lanes():
+                source("last = robot.last_rule[lane]")
+                source("robot.last_rule[lane] = I(r) if work.fired[lane] != I(0) else last")
+                source("fired = I(fired + work.fired[lane])")
+            source("rule.fired += fired")
+
+
+def _accepts(name: str, reading: str, values: int) -> str:
+    if values <= 32:
+        return f"I(U(U(accepted_{name}) >> U({reading})) & U(1))"
+    return f"I((accepted_{name} >> np.uint64({reading})) & np.uint64(1))"
+
+
+def _act(source: Source) -> None:
+    """One action of a rule, for all robots in which the rule is active."""
+    source("action = actions[a]\nfired = I(0)")
+    source("threshold, possible, target = action.threshold, action.possible, action.target")
+    source("keeps, sets, afresh = I(~action.clears), action.sets, action.restarts")
+    with source.lanes():
+        source("low, high = robot.key_low[lane], robot.key_high[lane]")
+        source("drawn = draw_bits(low, high, step, FIRST_ACTION + a)")
+        source("happens = I(I(work.active[lane] & possible) & I(drawn <= threshold))")
+        source("fired = I(fired + happens)\nwork.fired[lane] = I(work.fired[lane] | happens)")
+        source.set_field("state", "I(I(robot.state[lane] & keeps) | sets)")
+        source("happens = I(happens & I(I(target >= I(0)) & I(robot.behaviour[lane] != target)))")
+        source.set_field("behaviour", "target")
+        source("work.restarts[lane] = afresh if happens != I(0) else work.restarts[lane]")
+    source("action.fired += fired")
+
+
+def _count_decisions(source: Source) -> None:
+    """How often robots came from each situation to each outcome."""
+    source("# Count from which situation they came to which outcome.")
+    outcomes = 2 * len(source.parts.behaviours) * source.parts.states
+    with source.inside("if len(decisions):"):
+        with source.lanes():
+            source("after = I(I(robot.behaviour[lane] * I(STATES)) + robot.state[lane])")
+            source("outcome = I(I(after * I(2)) + work.restarts[lane])")
+            source(f"work.place[lane] = U(I(work.memory[lane] * I({outcomes})) + outcome)")
+        with source.inside("for lane in range(LANES):"):
+            source("decisions[work.place[lane]] += robot.exists[lane]")
+
+
+def _look_up_arguments(source: Source) -> None:
+    source("# Behaviours are instances: which one, with which arguments.")
+    offset = "I(0)" if source.layout.rules else "I(group.instances[lane])"
+    with source.lanes():
+        source(f"work.place[lane] = U(robot.behaviour[lane] + {offset})")
+    with source.lanes():
+        source("work.kind[lane] = kinds[work.place[lane]]")
+    for number in range(source.parts.arguments):
+        with source.lanes():
+            source(f"work.argument{number}[lane] = arguments[work.place[lane], {number}]")

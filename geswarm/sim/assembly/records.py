@@ -1,0 +1,95 @@
+"""The arrays that an assembled kernel works on: blocks of 64 lanes."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from geswarm.sim.assembly.source import Layout
+from geswarm.sim.kernels.single import F, I, U
+from geswarm.sim.kernels.state import LANES
+from geswarm.sim.terms.parts import Parts
+
+Records: TypeAlias = npt.NDArray[np.void]
+Record: TypeAlias = Any
+
+RULE = np.dtype(
+    [
+        ("fired", np.int64),  # how often some action of it was drawn, counted by the kernel
+        ("enabled", np.int32),
+        ("behaviours", np.uint32),  # mask of the instances in which it may be active
+        ("first_action", np.int64),
+        ("end_action", np.int64),
+    ],
+    align=True,
+)
+"""A rule to be interpreted; what it accepts of each reading is an array of its own."""
+
+ACTION = np.dtype(
+    [
+        ("fired", np.int64),  # how often it was drawn, counted by the kernel
+        ("threshold", np.uint32),  # drawn if `possible` and the random bits are no more than this
+        ("possible", np.int32),
+        ("target", np.int32),  # instance to change to, -1 for an action on registers
+        ("clears", np.int32),  # mask of bits
+        ("sets", np.int32),
+        ("restarts", np.int32),  # whether changing to the target starts something afresh
+    ],
+    align=True,
+)
+"""An action of a rule."""
+
+CHANCE = np.dtype([("threshold", np.uint32), ("possible", np.int32)])
+"""A probability as random bits are compared with it."""
+
+
+def robot_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
+    """A block of robots: robot i of 64 simulations, or robots 64 i to 64 i + 63 of a swarm."""
+    fields: dict[str, type] = {}
+    if layout.rules:
+        fields |= {"percepts": I, "last_rule": I}
+    if layout.wide:
+        fields |= {"low_x": F, "low_y": F}
+    if layout.swarm:
+        # Whether there is such a robot; its cell; where it was when pairs were listed.
+        fields |= {"exists": I, "cell": I, "listed_x": F, "listed_y": F}
+    # These come last: numba takes a record that begins like another one for a kind of it.
+    fields |= {
+        **dict.fromkeys(("x", "y", "cos", "sin"), F),
+        **dict.fromkeys(("behaviour", "state"), I),
+        **dict.fromkeys(("key_low", "key_high"), U),
+        **parts.own_fields,
+    }
+    return _in_lanes(fields)
+
+
+def work_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
+    """What is kept between the loops of a step, for one block or one pair of blocks."""
+    fields: dict[str, type] = {
+        **dict.fromkeys(("dx", "dy", "d2", "per_d"), F),
+        **dict.fromkeys(("place", "row", "word", "bits"), U),
+        **dict.fromkeys(("restarts", "happens"), I),
+        "kind": I,
+        **{f"argument{number}": F for number in range(parts.arguments)},
+    }
+    if layout.swarm:
+        fields["weight"] = F
+    else:
+        fields |= {"nearest": F, "touch": I}
+    if layout.rules:
+        fields |= dict.fromkeys(("active", "fired", "memory"), I)
+        fields |= {f"{sensor.name}_now": I for sensor in parts.sensors}
+    return _in_lanes(fields)
+
+
+OBJECT = np.dtype([("x", F, LANES), ("y", F, LANES)])
+"""The object of one number in 64 simulations."""
+
+GROUP = np.dtype([("codes", U, LANES), ("rows", U, LANES), ("instances", U, LANES)])
+"""Where the control table of each lane begins in the arrays of all."""
+
+
+def _in_lanes(fields: dict[str, type]) -> np.dtype[np.void]:
+    return np.dtype([(name, kind, LANES) for name, kind in fields.items()], align=True)

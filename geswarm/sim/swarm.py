@@ -1,0 +1,117 @@
+"""One simulation, its robots side by side in blocks: the interactive world and large swarms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from geswarm.sim.assembly.kernel import assemble
+from geswarm.sim.assembly.records import robot_type, work_type
+from geswarm.sim.assembly.source import Layout
+from geswarm.sim.encoding import fill_robots, grid_for, is_wide, numbers_by_name, start_of
+from geswarm.sim.kernels.state import LANES
+from geswarm.sim.scenario import Scenario
+from geswarm.sim.terms.foraging import FORAGING as PARTS
+from geswarm.sim.terms.parts import Parts
+
+_MOST_PAIRS = 100_000_000
+
+
+class Swarm:
+    """Robots and objects of one simulation.
+
+    Attributes:
+        blocks: Of `assembly.records.robot_type`, 64 robots each; the last one may hold fewer.
+        objects: float32, positions, shape (objects, 2).
+        steps: Control steps run so far.
+    """
+
+    def __init__(
+        self, scenario: Scenario, rules: bool, parts: Parts = PARTS, wide: bool | None = None
+    ) -> None:
+        """Make room; `rules` says that they are interpreted one by one."""
+        self.layout = Layout(
+            swarm=True, rules=rules, wide=is_wide(scenario) if wide is None else wide
+        )
+        self._parts, self._scenario = parts, scenario
+        self._kernel = assemble(parts, self.layout)
+        self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
+        blocks = -(-scenario.robots // LANES)
+        self.blocks = np.zeros(blocks, dtype=robot_type(parts, self.layout))
+        self.objects = np.zeros((scenario.objects, 2), dtype=np.float32)
+        self._work = np.zeros(1, dtype=work_type(parts, self.layout))[0]
+        self._grid = grid_for(scenario)
+        self.steps = 0
+
+    def start(self, seed: int, individual: int = 0, replicate: int = 0) -> None:
+        """Place robots and objects."""
+        began = start_of(self._scenario, np.array([(0, seed, individual, replicate)]))
+        robots = np.zeros(len(self.blocks) * LANES, dtype=began.robots.dtype)
+        robots["cos"] = 1.0
+        robots[: self._scenario.robots] = began.robots[0]
+        self.blocks[:] = np.zeros(1, dtype=self.blocks.dtype)
+        fill_robots(self.blocks, robots.reshape(-1, LANES))
+        exists = np.arange(len(robots)) < self._scenario.robots
+        self.blocks["exists"] = exists.reshape(-1, LANES)
+        self.objects[:] = began.objects[0]
+        self.list_anew()
+        self.steps = 0
+
+    def list_anew(self) -> None:
+        """List the pairs of robots before the next step."""
+        self._grid.listed[:] = grid_for(self._scenario).listed
+
+    def go_on_as(self, other: Swarm) -> None:
+        """Take over robots and objects of a swarm in another scenario."""
+        for name in self.blocks.dtype.names or ():
+            if name in (other.blocks.dtype.names or ()):
+                self.blocks[name] = other.blocks[name]
+        self.objects[:] = other.objects
+        self.steps = other.steps
+
+    def run(self, controller: tuple[Any, ...], steps: int) -> None:
+        """Run control steps; `controller` is what the kernel takes for deciding.
+
+        Raises:
+            ValueError: More robots are near each other than can be kept track of.
+        """
+        end = self.steps + steps
+        while self.steps < end:
+            left = end - self.steps
+            arguments = (self._numbers, self.blocks, self.objects, self._work, *controller)
+            self.steps += self._kernel.run(*arguments, self._grid, self.steps, left)
+            if self.steps < end:
+                self._make_room(-int(self._grid.listed[0]))
+
+    def _make_room(self, pairs: int) -> None:
+        if pairs > _MOST_PAIRS:
+            raise ValueError(
+                f"{pairs} pairs of robots are in sight of each other, expected at most "
+                f"{_MOST_PAIRS}: a shorter rab_range or a larger arena helps"
+            )
+        room = np.empty((pairs + pairs // 2, 2), dtype=np.int32)
+        self._grid = self._grid._replace(pairs=room)
+
+    def of_robots(self, name: str) -> npt.NDArray[Any]:
+        """A field of all robots, shape (robots,)."""
+        values: npt.NDArray[Any] = self.blocks[name].reshape(-1)[: self._scenario.robots]
+        return values
+
+    def put(self, name: str, which: slice, values: npt.NDArray[Any]) -> None:
+        """Set a field of some robots."""
+        at = np.arange(self._scenario.robots)[which]
+        self.blocks[name][at // LANES, at % LANES] = values
+
+    def place_robot(self, i: int, x: float, y: float) -> None:
+        """Put a robot somewhere."""
+        robot = self.blocks[i // LANES]
+        for name, place in (("x", x), ("y", y)):
+            robot[name][i % LANES] = place
+            if self.layout.wide:
+                robot[f"low_{name}"][i % LANES] = place - float(robot[name][i % LANES])
+
+    def measured(self, name: str) -> Any:
+        """The sum of a measure over the robots."""
+        return self.of_robots(name).sum(dtype=np.float64).item()

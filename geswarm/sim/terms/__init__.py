@@ -1,0 +1,1 @@
+"""The components that scenarios are composed of, one subject a file."""

@@ -1,0 +1,50 @@
+"""LLVM's own remarks: every loop over lanes becomes vector instructions."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCALAR = (
+    "= U(classes[work.place[lane]])",  # a look-up
+    "= rows[work.row[lane]]",
+    "= thresholds[work.place[lane]]",
+    "= outcomes[work.place[lane]]",
+    "decisions[work.place[lane]] +=",
+    "work.touch[lane] = I(0)",  # becomes a call of memset
+    "if work.happens[lane]:",  # rare
+    "if work.touch[lane]:",
+)
+"""First lines of the loops that are meant to go through the lanes one by one."""
+
+
+def loops_that_are_not_vectorised(layout):
+    script = Path(__file__).with_name("remarks.py")
+    done = subprocess.run(
+        [sys.executable, script, layout], capture_output=True, text=True, timeout=600, check=True,
+        env=os.environ,
+    )  # fmt: skip
+    file = Path(re.search(r"^file (.*)$", done.stdout, re.MULTILINE)[1])
+    pattern = rf"{file.name}:(\d+):\d+: vectorized loop"
+    vectorised = {int(line) for line in re.findall(pattern, done.stderr)}
+    assert vectorised, done.stderr[-2000:]
+    lines = file.read_text().splitlines()
+    heads = [
+        number
+        for number, line in enumerate(lines, 1)
+        if re.search(r"for lane in range\((width|LANES)\):", line)
+        and not any(scalar in lines[number] for scalar in SCALAR)
+    ]
+    assert len(heads) > 10
+    # LLVM names the head of a loop or, where it was turned round, its first line.
+    missing = [head for head in heads if not vectorised & {head, head + 1, head + 2}]
+    return [f"{file.name}, line {head}: {lines[head].strip()}" for head in missing]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("layout", ["lanes", "swarm"])
+def test_every_loop_over_lanes_is_vectorised(layout):
+    assert loops_that_are_not_vectorised(layout) == []
