@@ -1,4 +1,4 @@
-"""`geswarm bench`: how fast it is on this machine, with a plain kernel as the yardstick."""
+"""`geswarm bench`: how fast it is on this machine, with the interactive world as the yardstick."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
     """
     report = progress or (lambda _: None)
     warm_up(report)
-    report("control steps, side by side and one by one")
+    report("control steps, side by side and in the interactive world")
     side_by_side, scalar = _robot_steps()
     report("runs of the paper, on one core and on all")
     runs, scaling = _runs()
@@ -89,7 +89,7 @@ def format_bench(figures: dict[str, Any]) -> str:
     threads = "-" if scaling is None else f"{scaling:.2f} x"
     lines = [
         ("per robot and control step, simulations side by side", _ns(figures, "")),
-        ("per robot and control step, plain interpreter", _ns(figures, "scalar_")),
+        ("per robot and control step, the interactive world of 4 robots", _ns(figures, "scalar_")),
         ("side by side is faster by", f"{figures['speedup_vs_scalar']:.1f} x"),
         ("two threads to one", threads),
         ("runs of 5000 s with 4 robots", f"{figures['runs_per_second']:.0f} per second"),

@@ -129,7 +129,7 @@ def test_files_in_utf_16_are_named_everywhere(tmp_path, monkeypatch):
 
 def test_standard_input_that_is_closed_is_refused(monkeypatch):
     monkeypatch.setattr(sys, "stdin", None)
-    with pytest.raises(RuleSetError, match="standard input is closed"):
+    with pytest.raises(RuleSetError, match="it is closed"):
         load_rule_set("-")
 
 

@@ -161,7 +161,7 @@ def test_input_that_is_not_utf_8_is_told(tmp_path):
     path.write_bytes(RULES.encode("cp1252", "ignore"))
     status, out, err = shell(f"<{path}", "show", "-", LC_ALL="C", PYTHONIOENCODING="cp1252")
     assert (status, out) == (2, "")
-    assert err.startswith("geswarm: <stdin>: not a text file: invalid ")
+    assert err.startswith("geswarm: <stdin>: not a text file, not UTF-8 at byte 7")
 
 
 @pytest.mark.parametrize("arguments", [["evaluate", "evo8", "--runs", "1"], ["bench"]])

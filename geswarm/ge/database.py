@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 SCHEMA_VERSION = 1
@@ -71,6 +71,8 @@ def create(path: Path, config: str) -> None:
         except sqlite3.OperationalError:  # this file system cannot share memory
             _remove(partial)
             _make(partial, config, "DELETE")
+        if _is_unfinished(partial):
+            raise StoreError(f"{path}: could not be written as a whole: is the disk full?")
         partial.rename(path)
     except BaseException:
         _remove(partial)
@@ -84,6 +86,14 @@ def _make(path: Path, config: str, journal: str) -> None:
         connection.executescript(_SCHEMA)
         connection.execute("INSERT INTO run VALUES (?)", (config,))
         connection.execute("COMMIT")
+        # Closing does it too, but would not say that the disk is full.
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchall()
+
+
+def _is_unfinished(path: Path) -> bool:
+    """Something that belongs into a database is still beside it."""
+    beside = (path.with_name(path.name + suffix) for suffix in ("-wal", "-journal"))
+    return any(file.exists() and file.stat().st_size > 0 for file in beside)
 
 
 def _remove(path: Path) -> None:
@@ -136,11 +146,16 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
     Raises:
         sqlite3.OperationalError: Only `connect_to_write` can make it whole: a writer was killed.
     """
+    beside = [path.with_name(path.name + suffix) for suffix in ("-wal", "-shm")]
+    made = [file for file in beside if not file.exists()]
     try:
         return _after(connect(path, "ro"), _TOUCH)
-    except sqlite3.OperationalError:
-        if any(path.with_name(path.name + suffix).exists() for suffix in ("-wal", "-journal")):
+    except sqlite3.OperationalError as error:
+        if _is_unfinished(path) or "locked" in str(error):
             raise  # the latest generations are in there
+        for file in made:  # by trying, where memory cannot be shared
+            with suppress(OSError):
+                file.unlink()
         return connect(path, "ro&immutable=1")
 
 

@@ -16,6 +16,7 @@ try:
 except ImportError:  # Windows, whose locks SQLite knows by itself
     fcntl = None  # type: ignore[assignment]
 
+_LONGEST_PATH = 504  # bytes: SQLite takes 512, with "-journal" at the end
 _PATIENCE = 0.5  # seconds: somebody may just be asking `is_written`
 
 
@@ -50,6 +51,21 @@ def require_locks(directory: Path) -> None:
                 f"{directory}: this file system cannot lock files ({error.strerror}); choose --out "
                 "on a local disk (the dashboard keeps its runs where it is started, in runs/)"
             ) from error
+
+
+def require_short_path(directory: Path) -> None:
+    """Check that SQLite, which does not take every path, takes that of a run.
+
+    Raises:
+        StoreError: It is too long.
+    """
+    name = "/run.db.part"
+    length, longest = len(os.fsencode(os.path.realpath(directory))), _LONGEST_PATH - len(name)
+    if os.name == "posix" and length > longest:
+        raise StoreError(
+            f"{directory}: the path is too long ({length} bytes), SQLite takes {longest}; "
+            "choose a shorter --out"
+        )
 
 
 class Claim:

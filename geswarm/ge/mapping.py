@@ -91,7 +91,7 @@ class Mapper:
                     push(rest)
         except StopIteration:
             return Derivation(None, used)
-        return Derivation(_SPACES.sub(" ", "".join(parts)).strip(" "), used)
+        return Derivation(_single_spaced("".join(parts)), used)
 
     def _expansion(
         self, lead: str, alternative: Alternative, unfinished: list[tuple[str, str]]
@@ -121,3 +121,10 @@ class Mapper:
         if text:
             todo.append(text)
         return first, tuple(reversed(todo))
+
+
+def _single_spaced(text: str) -> str:
+    """One space for several, none at the ends; indentation is kept."""
+    if "\n" in text:
+        return _SPACES.sub(" ", text).strip(" ")
+    return " ".join(filter(None, text.split(" ")))  # the same, and faster

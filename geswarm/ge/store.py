@@ -20,7 +20,7 @@ from types import TracebackType
 from typing import Any
 
 from geswarm.ge import database, locks, steering
-from geswarm.ge.database import StoreError, kind_errors
+from geswarm.ge.database import OWN_FILES, StoreError, kind_errors
 from geswarm.ge.engine import State
 from geswarm.ge.individual import Birth, Individual
 from geswarm.ge.record import GenerationRecord
@@ -30,6 +30,7 @@ _HISTORY = """
 SELECT generation, best_so_far, best, mean, invalid, "distinct", seconds
 FROM generation ORDER BY generation
 """
+_FILES = (*OWN_FILES, "config.yaml", "history.csv")
 _ADD_GENERATION = "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"
 _ANCESTORS = """
 WITH RECURSIVE line (generation, key) AS (
@@ -120,15 +121,21 @@ class RunStore:
         ):
             claim = locks.Claim(directory)
             resources.callback(claim.give_up)
-            for name in ("run.db", "config.yaml", "history.csv"):
+            for name in _FILES:
                 if (directory / name).exists():
                     raise StoreError(
                         f"{directory}: expected a directory without a run, found {name}; "
                         "choose another one, or resume this run"
                     )
             locks.require_locks(directory)
-            database.create(directory / "run.db", config)
-            return cls._open(directory, False, resources)
+            locks.require_short_path(directory)
+            try:
+                database.create(directory / "run.db", config)
+                return cls._open(directory, False, resources)
+            except BaseException:
+                for name in _FILES:
+                    (directory / name).unlink(missing_ok=True)
+                raise
 
     @classmethod
     def open(cls, directory: str | Path, read_only: bool = False) -> RunStore:
@@ -144,6 +151,7 @@ class RunStore:
         with kind_errors(directory, "cannot open this run"), ExitStack() as resources:
             if not (directory / "run.db").is_file():
                 raise StoreError(f"{directory}: expected a run directory, found no run.db in it")
+            locks.require_short_path(directory)
             database.require_run(directory / "run.db")
             if not read_only:
                 claim = locks.Claim(directory)

@@ -130,13 +130,13 @@ def write_whole(text: str, path: str | Path, through_links: bool = True) -> None
     path = Path(path)
     link = path.is_symlink()
     if (link and through_links) or (not link and path.exists() and not path.is_file()):
-        path.write_text(text, encoding="utf-8")
+        path.write_text(text, encoding="utf-8", errors="backslashreplace")
         return
     draft = path.with_name(f".{secrets.token_hex(4)}.part")  # short, whatever the file's name
     try:
-        with draft.open("x", encoding="utf-8") as file:  # no link, and nobody else's
+        with draft.open("x", encoding="utf-8", errors="backslashreplace") as file:  # not a link
             file.write(text)
         draft.replace(path)
-    except OSError:
+    except BaseException:
         draft.unlink(missing_ok=True)
         raise

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import platform
+import subprocess  # nosec B404
 import sys
 import zlib
 from collections.abc import Callable
@@ -15,13 +16,16 @@ import numba
 from geswarm.rules import RuleSet
 from geswarm.sim import compiled
 from geswarm.sim.batch import evaluate
+from geswarm.sim.cores import available_cores
+from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import cache
 from geswarm.sim.kernels.jit import vector_settings
+from geswarm.sim.program import compile_controllers
 from geswarm.sim.scenario import load_scenario
 from geswarm.sim.world import World
 
-COMPILING = "Compiling the simulator for this machine, once: about 15 s …"
-COMPILING_EACH_TIME = "Compiling the simulator for this machine, each time: about 15 s …"
+COMPILING = "Compiling the simulator for this machine, once: about 25 s …"
+COMPILING_EACH_TIME = "Compiling the simulator for this machine, each time: about 25 s …"
 NOT_KEPT = (
     "The compiled simulator cannot be kept ({trouble}), so it compiles each time; "
     "NUMBA_CACHE_DIR can name another folder for it"
@@ -47,11 +51,32 @@ def warm_up(announce: Callable[[str], None] | None = None) -> None:
     compiled_before = is_compiled()
     if not compiled_before:
         announce(COMPILING if cache.trouble() is None else COMPILING_EACH_TIME)
+    helper = None if compiled_before else _compile_beside()
     small = load_scenario("paper").with_changes(duration=0.1)
-    evaluate([RuleSet()], small, [(0, 0, 0, 0)], workers=1)
     World(small, RuleSet()).step()
+    if helper is not None:
+        helper.wait()
+    evaluate([RuleSet()], small, [(0, 0, 0, 0)], workers=1)
     if not compiled_before:
         _remember(announce)
+
+
+def compile_tables() -> None:
+    """Compile what makes control tables, which takes half of the time."""
+    compile_controllers([RuleSet()], fails(load_scenario("paper")))
+
+
+def _compile_beside() -> subprocess.Popen[bytes] | None:
+    """Another process that does that, if there is a core for it and a place to keep the code."""
+    if cache.trouble() is not None or available_cores() < 2 or not sys.executable:
+        return None
+    command = f"from {__name__} import compile_tables; compile_tables()"
+    nowhere = subprocess.DEVNULL
+    with contextlib.suppress(OSError):
+        return subprocess.Popen(
+            [sys.executable, "-c", command], stdin=nowhere, stdout=nowhere, stderr=nowhere
+        )
+    return None
 
 
 def _remember(announce: Callable[[str], None]) -> None:

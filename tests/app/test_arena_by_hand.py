@@ -258,7 +258,7 @@ def test_a_stretch_is_recorded_and_plays_by_itself(session, screen, browser, tmp
     replay.wait_for_selector("canvas", timeout=PATIENCE)
     sees_far = "window.__viserMutable?.camera?.fov < 31 && __viserMutable.camera.far > 100"
     replay.wait_for_function(sees_far, timeout=PATIENCE)
-    assert replay.title() == "GESwarm"
+    assert replay.title().endswith(" – GESwarm")
     assert replay.evaluate("document.querySelector('link[rel=icon]').href").startswith("data:")
     replay.close()
     assert complaints == []

@@ -53,6 +53,8 @@ def address(process):
     line = process.stdout.readline()
     found = re.search(r"http://\S+", line)
     assert found, line + process.stderr.read()
+    while "experiments.html" not in line:  # where its pages are
+        line = process.stdout.readline()
     return found[0]
 
 

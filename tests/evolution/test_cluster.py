@@ -117,7 +117,7 @@ def scheduler(monkeypatch):
 
 def test_something_that_listens_and_is_no_scheduler_is_given_up(monkeypatch):
     pytest.importorskip("distributed", reason="needs the extra: geswarm[cluster]")
-    monkeypatch.setattr("geswarm.cluster._PATIENCE", 0.2)
+    monkeypatch.setattr("geswarm.evolution.cluster._PATIENCE", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
         words = f"{address}: expected a Dask scheduler"

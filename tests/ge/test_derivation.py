@@ -142,9 +142,9 @@ def test_redraw_goes_to_the_next_number_more_often(mapper, trees, grammar):
     text = "rule do p = {}, PHOTOTAXIS"
     genome = genome_of(grammar, text.format("0.025"))
     drawn = [sentence(mapper, trees.redraw(genome, rng(seed))) for seed in range(4000)]
-    counts = {p: drawn.count(text.format(p)) for p in ("0.001", "0.01", "0.05", "1.0")}
+    counts = {p: drawn.count(text.format(p)) for p in ("0.001", "0.01", "0.05", "1")}
     # Half of the time one of 2, half of the time one of 7: 9 to 2.
-    assert counts["0.01"] + counts["0.05"] > 3 * (counts["0.001"] + counts["1.0"])
+    assert counts["0.01"] + counts["0.05"] > 3 * (counts["0.001"] + counts["1"])
     assert all(counts.values())
 
 

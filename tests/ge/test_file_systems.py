@@ -88,18 +88,75 @@ def test_nothing_is_left_of_a_run_that_could_not_be_made(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(os.name != "posix", reason="SQLite has other limits there")
+def test_a_path_that_is_too_long_for_sqlite(tmp_path):
+    def directory(length):
+        parent = tmp_path / ("x" * 200) / ("y" * 100)
+        return parent / ("z" * (length - len(os.fsencode(parent)) - 1))
+
+    RunStore.create(directory(492), CONFIG).close()
+    words = r"the path is too long \(493 bytes\), SQLite takes 492; choose a shorter --out"
+    with pytest.raises(StoreError, match=words):
+        RunStore.create(directory(493), CONFIG)
+    directory(492).rename(directory(493))
+    with pytest.raises(StoreError, match=words):
+        RunStore.open(directory(493))
+    with pytest.raises(CampaignError, match="the path is too long"):
+        Campaign.at(directory(480))
+    assert not directory(480).exists()
+
+
+ON_FULL_DISKS = """
+import subprocess, sys
+from pathlib import Path
+from geswarm.ge import RunStore, StoreError
+from tests.ge.test_store import CONFIG
+begun = []
+for free in range(4, 164, 4):
+    disk = Path(sys.argv[1], str(free))
+    disk.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={free}k", "none", disk], check=True)
+    try:
+        RunStore.create(disk / "run", CONFIG).close()
+    except StoreError:
+        assert list(disk.iterdir()) == [], (free, list((disk / "run").iterdir()))
+    else:
+        begun.append(free)
+        assert len(list((disk / "run").iterdir())) == 3, (free, list((disk / "run").iterdir()))
+        with RunStore.open(disk / "run", read_only=True) as store:
+            assert store.config == CONFIG
+print(4 not in begun and 160 in begun)
+"""
+
+
+def can_mount():
+    try:
+        command = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", "/mnt"]
+        return subprocess.run(command, capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not can_mount(), reason="needs to mount small disks, as on Linux")
+def test_a_run_begins_on_a_nearly_full_disk_or_leaves_nothing(tmp_path):
+    command = ["unshare", "-rm", sys.executable, "-c", ON_FULL_DISKS, str(tmp_path)]
+    said = subprocess.run(command, capture_output=True, text=True)
+    assert (said.stdout, said.stderr) == ("True\n", "")
+
+
 IN_A_SHARE = """
 import json, sys
 from pathlib import Path
-from geswarm.ge import Engine, RunStore, Settings, evolve, geswarm_grammar
-from tests.ge.conftest import VOCABULARY
+from geswarm.evolution import rule_grammar
+from geswarm.ge import Engine, RunStore, evolve
 from tests.ge.test_store import CONFIG, SMALL, objective, resume
-grammar = geswarm_grammar(VOCABULARY)
+grammar = rule_grammar()
 here = Path(sys.argv[1])
 with RunStore.create(here / "begun", CONFIG) as store:
     evolve(Engine(grammar, SMALL, 3), objective, store)
     mode = store._connection.execute("PRAGMA journal_mode").fetchone()
 resume(grammar, here / "brought")
+RunStore.open(here / "finished", read_only=True).close()
 print(json.dumps([mode, sorted(path.name for path in (here / "begun").iterdir())]))
 """
 
@@ -110,6 +167,7 @@ print(json.dumps([mode, sorted(path.name for path in (here / "begun").iterdir())
 def test_a_run_begins_and_goes_on_where_memory_cannot_be_shared(grammar, tmp_path, whole):
     """Also one that was killed and whose log was brought along."""
     share = tmp_path / "share"
+    shutil.copytree(tmp_path / "whole", share / "finished")
     with RunStore.create(tmp_path / "local", CONFIG) as store:
         engine = Engine(grammar, SMALL, 3)
         evolve(engine, objective, store, stop=lambda: engine.generation == 3)
@@ -127,4 +185,5 @@ def test_a_run_begins_and_goes_on_where_memory_cannot_be_shared(grammar, tmp_pat
         text=True,
     ).stdout
     assert json.loads(said) == [["delete"], ["config.yaml", "history.csv", "run.db"]]
+    assert len(list((share / "finished").iterdir())) == 3  # reading left nothing
     assert rows(share / "begun") == rows(share / "brought") == whole

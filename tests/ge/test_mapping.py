@@ -116,9 +116,7 @@ def test_wraps_are_further_passes():
 
 def test_words_of_the_language(mapper):
     text = "rule if ON_NEST == true and HAS_OBJECT == false while RANDOM_WALK or PHOTOTAXIS "
-    text += (
-        "do p = 0.1, ANTI-PHOTOTAXIS do p = 1.0, DROP_OBJECT = true rule do p = 0.05, PHOTOTAXIS"
-    )
+    text += "do p = 0.1, ANTI-PHOTOTAXIS do p = 1, DROP_OBJECT = true rule do p = 0.05, PHOTOTAXIS"
     assert mapper.map(genome_of(mapper.grammar, text), 0).phenotype == text
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from geswarm.rules import ControlTable, RuleSet
-from geswarm.sim import World, evaluate, footbot, load_scenario
+from geswarm.sim import CONTROL_STEP, World, evaluate, footbot, load_scenario
 from geswarm.sim.scenario import Scenario, ScenarioError
 from geswarm.sim.scenario_checks import PARAMETERS
 from tests.strategies import any_probabilities, rules
@@ -59,7 +59,7 @@ def scenarios(draw):
         },
     }  # fmt: skip
     try:
-        return Scenario(name="any", duration=STEPS * footbot.CONTROL_STEP, **values)
+        return Scenario(name="any", duration=STEPS * CONTROL_STEP, **values)
     except ScenarioError:
         assume(False)
 
@@ -158,7 +158,7 @@ def test_bodies_overlap_by_no_more_than_two_go_in_a_step(scenario, rule_set, see
     assume(deepest_overlap(world) <= 0)
     for _ in range(100):
         world.step()
-        assert deepest_overlap(world) <= 2 * scenario.max_speed * footbot.CONTROL_STEP
+        assert deepest_overlap(world) <= 2 * scenario.max_speed * CONTROL_STEP
 
 
 @pytest.mark.long

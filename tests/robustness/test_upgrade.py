@@ -85,9 +85,9 @@ def test_files_of_a_newer_version_are_refused(older):
     assert (older / "run" / "run.db").read_bytes() == before
     for name, old, new in (
         ("evo8.yaml", "schema: 1", "schema: 2"),
-        ("evo8.json", '"schema": 1', '"schema": 2'),
+        ("evo8.json", '"schema": 1', '"schema": 3'),
     ):
         path = older / name
         path.write_text(path.read_text().replace(old, new))
-        with pytest.raises(RuleSetError, match="expected schema 1, got 2"):
+        with pytest.raises(RuleSetError, match=r"expected schema [12], got [23]"):
             load_rule_set(str(path))

@@ -80,7 +80,7 @@ def state_index(machine, behaviour, true_states):
     (index,) = (
         at
         for at, state in enumerate(machine.states)
-        if state.behaviour == behaviour
+        if str(state.behaviour) == behaviour
         and all((name in true_states) == value for name, value in state.internal)
     )
     return index

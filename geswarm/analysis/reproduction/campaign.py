@@ -11,8 +11,9 @@ Whatever interrupts it, it goes on from the last generation or experiment that w
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -43,13 +44,12 @@ class Campaign:
     Attributes:
         directory: Where it is kept.
         plan: What was asked for.
-        remarks: What whoever continues it should know: sentences, usually none.
     """
 
     def __init__(self, directory: Path, plan: Plan, version: str = __version__) -> None:
         self.directory = directory
         self.plan = plan
-        self.remarks = version_remarks("This campaign", version)
+        self._version = version
 
     @classmethod
     def at(cls, directory: str | Path, **asked: int) -> Campaign:
@@ -84,6 +84,20 @@ class Campaign:
         if not path.exists():
             campaign._begin()
         return campaign
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What whoever continues it should know, of its runs too: sentences, usually none."""
+        return version_remarks("This campaign", self._version) + tuple(self._remarks_of_runs())
+
+    def _remarks_of_runs(self) -> Iterator[str]:
+        for seed in self.plan.seeds:
+            place = self.place_of(seed)
+            with suppress(StoreError):  # there is none, or that is told when its turn comes
+                run = EvolutionRun.read(place)
+                if not run.finished:
+                    yield from (f"{place.name}: {remark}" for remark in run.remarks)
+                run.close()
 
     def run(
         self,
@@ -145,6 +159,8 @@ class Campaign:
                         f"found {strange[0]}"
                     )
                 locks.require_locks(self.directory)
+                for seed in self.plan.seeds:
+                    locks.require_short_path(self.place_of(seed))
         except StoreError as error:
             raise CampaignError(str(error)) from error
         except OSError as error:

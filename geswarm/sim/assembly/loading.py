@@ -32,7 +32,7 @@ def load(name: str, text: str, modules: Iterable[str]) -> types.ModuleType:
     module_name = f"{name}_{checksum}"
     text = f"# Assembled of sources with the checksum {checksum}.\n{text}"
     path = cache.folder() / f"{module_name}.py"
-    if not _write_once(path, text):
+    if not _is_kept(path, text):
         return _in_memory(module_name, text)
     spec = importlib.util.spec_from_file_location(module_name, path)
     assert spec is not None
@@ -53,18 +53,22 @@ def _checksum(text: str, modules: Iterable[str]) -> str:
     return checksum.hexdigest()[:16]
 
 
-def _write_once(path: Path, text: str) -> bool:
-    """Write a file unless it is there; numba takes one that was written again for another one."""
-    if path.exists():
-        return True
-    draft = path.with_suffix(f".{os.getpid()}.tmp")
+def _is_kept(path: Path, text: str) -> bool:
+    """Whether a file holds this text; it is written if it does not, or is damaged.
+
+    One that holds it is left alone: the cache takes a file that was written again for another one.
+    """
+    with contextlib.suppress(OSError, UnicodeDecodeError):
+        if path.read_text(encoding="utf-8") == text:
+            return True
+    draft = path.with_name(f"{os.getpid()}.part")
     try:
         draft.write_text(text, encoding="utf-8")
         draft.replace(path)
     except OSError:
         with contextlib.suppress(OSError):
             draft.unlink(missing_ok=True)
-        return path.exists()
+        return False
     return True
 
 

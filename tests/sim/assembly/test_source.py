@@ -100,7 +100,21 @@ def test_a_module_is_written_once_and_found_again(tmp_path, monkeypatch):
     assert file.stat().st_mtime_ns == written
     assert loading.load("mine", "answer = 43\n", []).answer == 43
     assert len(list(tmp_path.glob("*.py"))) == 2
-    assert not list(tmp_path.glob("*.tmp"))
+    assert not list(tmp_path.glob("*.part"))
+
+
+@pytest.mark.parametrize("damage", [b"", b"\0", b"answer = 1\n"])
+def test_a_module_that_is_damaged_is_written_anew(tmp_path, monkeypatch, damage):
+    monkeypatch.setattr(loading.cache, "folder", lambda: tmp_path)
+    loading.load("mine", "answer = 42\n", [])
+    (file,) = tmp_path.glob("*.py")
+    file.write_bytes(damage)
+    assert loading.load("mine", "answer = 42\n", []).answer == 42
+
+
+def test_a_module_that_cannot_be_written_is_in_memory(tmp_path, monkeypatch):
+    monkeypatch.setattr(loading.cache, "folder", lambda: tmp_path / ("long" * 100))
+    assert loading.load("mine", "answer = 42\n", []).answer == 42
 
 
 def test_another_text_of_a_component_is_another_module(tmp_path, monkeypatch):
