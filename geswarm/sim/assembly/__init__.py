@@ -1,0 +1,1 @@
+"""From components to kernels: readable source, and the module that it becomes."""
