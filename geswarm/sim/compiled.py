@@ -10,7 +10,7 @@ from __future__ import annotations
 import zlib
 from pathlib import Path
 
-from geswarm.sim.kernels import start, table
+from geswarm.sim.kernels import start, tabulate
 
 
 def _fingerprint(*folders: Path) -> int:
@@ -27,4 +27,4 @@ VERSION = _fingerprint(_FOLDER, _FOLDER.parent / "terms", _FOLDER.parent / "asse
 """Checksum of the sources from which kernels are assembled and compiled."""
 
 start_all = start.build_start_all(VERSION)
-compile_tables = table.build_compile_tables(VERSION)
+compile_tables = tabulate.build_compile_tables(VERSION)
