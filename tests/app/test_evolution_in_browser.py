@@ -267,7 +267,11 @@ def test_a_failed_evolution_is_shown_and_resumed(page, served, monkeypatch):
 
 
 def colour_of(node, name):
-    return node.evaluate("(node, name) => getComputedStyle(node)[name]", name)
+    """Of a node that may be drawn anew just now: one that has gone has no colour."""
+    for _ in range(1000):
+        if colour := node.evaluate("(node, name) => getComputedStyle(node)[name]", name):
+            return colour
+    raise AssertionError(f"{node} has no {name}")
 
 
 def test_box_curve_and_name_of_a_compared_run_agree(page, served):

@@ -60,12 +60,13 @@ def test_time_goes_by_as_fast_as_wanted_and_gives_the_same_trajectory(session, s
 
 
 def test_as_fast_as_possible_fills_the_budget_and_no_more(session):
+    session.step()  # what is compiled is loaded
     session.play()
     session.set_speed(math.inf)
     began = time.perf_counter()
-    session.frame(1 / 30, budget=0.05)
+    session.frame(1 / 30, budget=0.5)
     assert session.world.steps > 100
-    assert time.perf_counter() - began < 1.0
+    assert time.perf_counter() - began < 2.0
 
 
 def test_the_display_moves_smoothly_between_steps(session):
