@@ -62,13 +62,15 @@ def tidy(text: str) -> str:
 def _other_encoding(data: bytes) -> str | None:
     """What text is in if not in UTF-8: it has a byte order mark, or a zero in its first letter."""
     if data.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):
-        return "UTF-32"
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return "UTF-16"
-    if data[:2].count(0) != 1:
+        name = codec = "UTF-32"
+    elif data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        name = codec = "UTF-16"
+    elif data[:2].count(0) == 1:
+        name, codec = "UTF-16", "UTF-16-BE" if data[0] == 0 else "UTF-16-LE"
+    else:
         return None
     try:
-        data.decode("UTF-16-BE" if data[0] == 0 else "UTF-16-LE")
+        data.decode(codec)
     except UnicodeDecodeError:
         return None
-    return "UTF-16"
+    return name

@@ -68,7 +68,7 @@ def test_bytes_are_text_or_refused(data):
         ("rule ö".encode("utf-16-le"), "UTF-16, expected UTF-8"),
         ("rule ö".encode("utf-16-be"), "UTF-16, expected UTF-8"),
         ("rule ö".encode("utf-32"), "UTF-32, expected UTF-8"),
-        (b"\xff\xfe\xfd", "UTF-16, expected UTF-8"),
+        (b"\xff\xfe\xfd", "not a text file, not UTF-8 at byte 0 (invalid start byte)"),
     ],
 )
 def test_what_is_no_utf_8_is_named(data, reason):
