@@ -34,11 +34,7 @@ class Composition:
 
     def rule_set(self, phenotype: str) -> RuleSet:
         """The whole rule set."""
-        return RuleSet((*self.frozen, *parse_text(phenotype).rules))
-
-    def table(self, phenotype: str) -> ControlTable:
-        """The control table of the whole rule set."""
-        return _table(self, phenotype)
+        return _rule_set(self, phenotype)
 
     def phenotype(self, rule_set: RuleSet) -> str:
         """The phenotype that becomes a rule set; rules that are switched off are left out.
@@ -87,14 +83,14 @@ def _bare(rule: Rule) -> Rule:
     return replace(rule, comment="", enabled=True)
 
 
-@lru_cache(maxsize=1024)
-def _table(composition: Composition, phenotype: str) -> ControlTable:
-    return ControlTable.compile(composition.rule_set(phenotype))
+@lru_cache(maxsize=1024)  # evolution asks for its behaviour, then runs it
+def _rule_set(composition: Composition, phenotype: str) -> RuleSet:
+    return RuleSet((*composition.frozen, *parse_text(phenotype).rules))
 
 
 @lru_cache(maxsize=4096)
 def _behaviour(composition: Composition, phenotype: str) -> bytes:
-    table = composition.table(phenotype)
+    table = ControlTable.compile(composition.rule_set(phenotype))
     decisions = table.by_percepts.round(12)
     reachable = reachable_situations(decisions, table.space)
     told_apart = table.space.signature.encode()

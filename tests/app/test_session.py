@@ -65,8 +65,8 @@ def test_as_fast_as_possible_fills_the_budget_and_no_more(session):
     session.set_speed(math.inf)
     began = time.perf_counter()
     session.frame(1 / 30, budget=0.5)
-    assert session.world.steps > 100
-    assert time.perf_counter() - began < 2.0
+    assert session.world.steps > 1000
+    assert time.perf_counter() - began < 1.5
 
 
 def test_the_display_moves_smoothly_between_steps(session):
