@@ -5,9 +5,11 @@ from __future__ import annotations
 import pickle
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, TimeoutError
 from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
@@ -29,8 +31,8 @@ def cluster_executor(address: str, say: Callable[[str], None]) -> Iterator[Execu
 
     Args:
         address: Of the scheduler, for example `tcp://10.0.0.1:8786`.
-        say: Called, in another thread, with what keeps the work from being done: no workers, or a
-            scheduler that does not answer.
+        say: Called, in another thread, with what keeps the work from being done: no workers, none
+            that takes work, or a scheduler that does not answer.
 
     Raises:
         ClusterError: `distributed` is not installed, or no scheduler answers there.
@@ -118,30 +120,58 @@ def _watch(
     executor: _ClusterExecutor, address: str, say: Callable[[str], None], ended: threading.Event
 ) -> None:
     """Say what keeps the work from being done: soon, when it changes, and again now and then."""
-    said, again, workers = "", 0.0, 0
+    said, again, able = "", 0.0, 0
     while not ended.wait(_LOOK_SECONDS):
         if not executor.is_waiting:
             continue
-        before = workers
+        before = able
         try:
-            workers = len(_workers(executor.client))
+            workers = _workers(executor.client)
         except Exception:  # whatever a connection that is no more raises
             problem = f"the scheduler at {address} does not answer"
         else:
-            some = "left" if before or "left" in said else "yet"
-            problem = "" if workers else f"no workers {some} at {address}, waiting"
+            able = sum(worker.able for worker in workers)
+            problem = "" if able else _why_idle(workers, bool(before) or "left" in said, address)
         now = time.monotonic()
         if problem and (problem != said or now > again) and not ended.is_set():
             say(problem)
             again = now + _AGAIN_SECONDS
         if said and not problem:
-            say(f"{workers} worker{'s' * (workers > 1)} at {address}, going on")
+            say(f"{_count(able)} at {address}, going on")
         said = problem
 
 
-def _workers(client: Any) -> dict[str, int]:
-    """Addresses of the workers and their threads, as the scheduler knows them now."""
+@dataclass(frozen=True)
+class _Worker:
+    """A worker: what it is doing, in Dask's words, and how many tasks it takes at once."""
+
+    status: str
+    threads: int
+
+    @property
+    def able(self) -> bool:
+        return self.status == "running" and self.threads > 0
+
+
+def _workers(client: Any) -> list[_Worker]:
+    """The workers, as the scheduler knows them now."""
     if client.status != "running":
         raise ConnectionError(client.status)
-    workers: dict[str, int] = client.sync(client.scheduler.ncores, callback_timeout=_PATIENCE)
-    return workers
+    found = client.sync(client.scheduler.identity, callback_timeout=_PATIENCE)
+    return [_Worker(one["status"], one["nthreads"]) for one in found["workers"].values()]
+
+
+def _why_idle(workers: list[_Worker], some_before: bool, address: str) -> str:
+    """What to say of workers of which none takes work."""
+    if not workers:
+        return f"no workers {'left' if some_before else 'yet'} at {address}, waiting"
+    reasons = Counter(one.status if one.threads > 0 else "without threads" for one in workers)
+    listed = ", ".join(f"{number} {reason}" for reason, number in sorted(reasons.items()))
+    return (
+        f"{_count(len(workers))} at {address}, but none takes work ({listed}), waiting; "
+        "Dask pauses those that run out of memory"
+    )
+
+
+def _count(workers: int) -> str:
+    return f"{workers} worker{'s' * (workers > 1)}"

@@ -1,6 +1,7 @@
 """Evaluation by any executor: the same history, whoever does the work and whoever dies."""
 
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -9,6 +10,7 @@ import threading
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
+from types import SimpleNamespace
 
 import pytest
 
@@ -19,6 +21,7 @@ from geswarm.evolution import (
     EvaluationError,
     EvolutionRun,
     RunConfig,
+    cluster,
     cluster_executor,
 )
 from geswarm.evolution.fitness import simulate_share
@@ -150,6 +153,62 @@ def test_without_workers_it_says_so_again_and_again_and_uses_those_that_come(
         work.join(60)
         heard.wait(f"1 worker at {address}, going on")
     assert found == [expected]
+
+
+def test_paused_workers_are_told_and_used_when_they_go_on(tmp_path, expected, scheduler):
+    heard, found = Heard(), []
+    address = scheduler.scheduler_address
+    scheduler.scale(1)
+    with cluster_executor(address, heard.append) as executor:
+        executor.client.wait_for_workers(1, timeout=60)
+        (worker,) = scheduler.workers.values()
+
+        def set_status(status):  # the worker itself would go on at once, as it has memory left
+            change = scheduler.scheduler.handle_worker_status_change
+            scheduler.loop.add_callback(change, status, worker.address, "test")
+
+        set_status("paused")
+        work = threading.Thread(
+            target=lambda: found.append(evolved(tmp_path / "run", executor=executor))
+        )
+        work.start()
+        words = f"1 worker at {address}, but none takes work (1 paused), waiting"
+        heard.wait(words, times=2)
+        set_status("running")
+        work.join(60)
+        heard.wait(f"1 worker at {address}, going on")
+    assert found == [expected]
+
+
+@pytest.mark.parametrize(
+    ("workers", "words"),
+    [
+        ([("paused", 1), ("running", 0), ("paused", 2)], "3 workers .*2 paused, 1 without threads"),
+        ([("closing_gracefully", 4)], r"1 worker .*\(1 closing_gracefully\)"),
+        ([], "no workers yet"),
+        ([("paused", 1), ("running", 1)], None),
+    ],
+)
+def test_workers_that_take_no_work_are_no_workers(workers, words, monkeypatch):
+    monkeypatch.setattr(cluster, "_LOOK_SECONDS", 0.01)
+    listed = {str(n): {"status": s, "nthreads": t} for n, (s, t) in enumerate(workers)}
+    client = SimpleNamespace(
+        status="running",
+        scheduler=SimpleNamespace(identity=None),
+        sync=lambda *_, **__: {"workers": listed},
+        get_executor=lambda pure: None,
+    )
+    executor, heard, ended = cluster._ClusterExecutor(client), Heard(), threading.Event()
+    executor._waiting.add("something")
+    watch = threading.Thread(target=cluster._watch, args=(executor, "here", heard.append, ended))
+    watch.start()
+    if words is None:
+        time.sleep(0.1)
+    else:
+        heard.wait("waiting")
+    ended.set()
+    watch.join(60)
+    assert heard == [] if words is None else re.search(words, heard[0])
 
 
 def test_a_scheduler_that_goes_away_ends_the_wait(tmp_path, scheduler):
