@@ -27,7 +27,8 @@ def add_reproduce(verbs: Verbs) -> None:
         "reproduce",
         help="repeat the paper's experiments and report which of its claims hold",
         description="Repeat the paper's experiments and report which of its claims hold. "
-        "Called again with the same DIR it goes on where it was interrupted.",
+        "Called again with the same DIR it goes on where it was interrupted; with more --runs or "
+        "--generations what is there is kept and goes on, too.",
     )
     reproduce.add_argument("--out", metavar="DIR", required=True, help="where everything is kept")
     reproduce.add_argument("--runs", type=positive_int, metavar="N", help="default: 10")

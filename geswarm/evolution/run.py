@@ -172,7 +172,7 @@ class EvolutionRun:
         run = cls._open(directory)
         try:
             if generations is not None:
-                run._extend(generations)
+                run.extend(generations)
             run._save_best()  # a run killed before it wrote best.yaml has it now
         except (StoreError, SettingsError):
             run.close()
@@ -208,8 +208,13 @@ class EvolutionRun:
             store.close()
             raise StoreError(f"{directory}: {error}") from error
 
-    def _extend(self, generations: int) -> None:
-        """Have another number of generations, on disk first."""
+    def extend(self, generations: int) -> None:
+        """Have another number of generations, on disk first; see `resume`.
+
+        Raises:
+            StoreError: It cannot be written.
+            SettingsError: So many generations cannot be.
+        """
         settings = replace(self.config.settings, generations=generations)
         if generations < (done := len(self.history)):
             raise SettingsError(

@@ -6,12 +6,13 @@
     rules/*.yaml         the rule sets
     report.html          figures, and every claim of the paper beside what was found
 
-Whatever interrupts it, it goes on from the last generation or experiment that was finished.
+Whatever interrupts it, it goes on from the last generation or experiment that was finished. It can
+get more runs and generations; the experiments with what they lead to are then made anew.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import replace
@@ -57,7 +58,8 @@ class Campaign:
 
         Args:
             directory: New, empty, with a campaign in it, or with evolutionary runs to adopt.
-            asked: Attributes of `Plan`; the others are as in the directory, or the paper's.
+            asked: Attributes of `Plan`; the others are as in the directory, or the paper's. More
+                runs or generations than there are extend the campaign.
 
         Raises:
             CampaignError: The directory holds another campaign or something else, or cannot be
@@ -75,14 +77,11 @@ class Campaign:
         except (PlanError, NotTextError, OSError) as error:
             where = f"{path}: " if path.exists() else ""
             raise CampaignError(f"{where}{_reason(error)}") from error
-        if differences := plan.differences(asked):
-            raise CampaignError(
-                f"{directory}: holds a campaign with {', '.join(differences)}; "
-                "choose another directory, or leave these options out to go on with it"
-            )
         campaign = cls(directory, plan, version)
         if not path.exists():
             campaign._begin()
+        elif plan.differences(asked):
+            campaign._extend(asked)
         return campaign
 
     @property
@@ -167,6 +166,24 @@ class Campaign:
             raise CampaignError(f"{self.directory}: {_reason(error)}") from error
         self._write("campaign.yaml", self.plan.to_yaml())
 
+    def _extend(self, asked: Mapping[str, int]) -> None:
+        """Have more runs or generations: what would be other figures then goes first."""
+        try:
+            plan = self.plan.extended(asked)
+        except PlanError as error:
+            raise CampaignError(
+                f"{self.directory}: {error}; choose another directory, leave these options out to "
+                "go on with it, or ask for more runs or generations"
+            ) from error
+        gone = [self.data_of(name) for name in studies.OF_THE_EVOLVED]
+        for path in (self.directory / "report.html", *gone):
+            try:
+                path.unlink(missing_ok=True)
+            except OSError as error:
+                raise CampaignError(f"{path}: cannot be deleted: {_reason(error)}") from error
+        self._write("campaign.yaml", plan.to_yaml(self._version))
+        self.plan = plan
+
     def _evolve(
         self,
         seed: int,
@@ -180,11 +197,14 @@ class Campaign:
         exists = (place / "run.db").exists()
         run = EvolutionRun.resume(place) if exists else EvolutionRun.create(config, place)
         try:
-            if run.config != config or run.steering:
+            present = run.config.settings.generations
+            shorter = replace(config, settings=replace(config.settings, generations=present))
+            if run.config != shorter or present > self.plan.generations or run.steering:
                 raise CampaignError(
                     f"{place}: expected a run in the scenario paper with the preset paper, seed "
-                    f"{seed}, {self.plan.generations} generations and no changes on the way"
+                    f"{seed}, at most {self.plan.generations} generations and no changes on the way"
                 )
+            run.extend(self.plan.generations)
             run.run(workers, lambda record: meter.evolved(seed, record), stop, executor)
             if not run.finished:
                 raise EvaluationStopped("the campaign was stopped")

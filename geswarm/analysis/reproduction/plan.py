@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 
 import yaml
 
@@ -15,6 +15,11 @@ from geswarm.sim import load_scenario
 
 QUICK: dict[str, int] = {"runs": 3, "generations": 50, "evaluations": 20}
 """A small campaign: minutes instead of an hour or two."""
+
+
+_CAN_GROW = ("runs", "generations")
+_LEAST = {"seed": 0, "evaluations": 2}  # the others: 1
+_MOST = {"runs": 10_000, "generations": 1_000_000, "evaluations": 1_000_000, "seed": 2**31 - 1}
 
 
 class PlanError(ValueError):
@@ -42,10 +47,12 @@ class Plan:
 
     def __post_init__(self) -> None:
         for name, value in asdict(self).items():
-            least = {"seed": 0, "evaluations": 2}.get(name, 1)
+            least, most = _LEAST.get(name, 1), _MOST[name]
             whole = isinstance(value, int) and not isinstance(value, bool)
-            if not whole or not least <= value < 2**31:
+            if not whole or value < least:
                 raise PlanError(f"{name}: expected a whole number >= {least}, got {value!r}")
+            if value > most:
+                raise PlanError(f"{name}: expected at most {most}, got {value}")
 
     @property
     def seeds(self) -> range:
@@ -70,9 +77,22 @@ class Plan:
             if getattr(self, name) != value
         ]
 
-    def to_yaml(self) -> str:
-        """The text of campaign.yaml."""
-        return yaml.safe_dump({"geswarm": __version__, **asdict(self)}, sort_keys=False)
+    def extended(self, asked: Mapping[str, int]) -> Plan:
+        """With the values asked for; what was done for this plan belongs to that one, too.
+
+        Raises:
+            PlanError: A value is another one, and not just more runs or generations.
+        """
+        more = {name: value for name, value in asked.items() if getattr(self, name) != value}
+        if any(
+            name not in _CAN_GROW or value < getattr(self, name) for name, value in more.items()
+        ):
+            raise PlanError(f"holds a campaign with {', '.join(self.differences(asked))}")
+        return replace(self, **more)
+
+    def to_yaml(self, version: str = __version__) -> str:
+        """The text of campaign.yaml, with the version of GESwarm that began it."""
+        return yaml.safe_dump({"geswarm": version, **asdict(self)}, sort_keys=False)
 
     @classmethod
     def from_yaml(cls, text: str) -> Plan:

@@ -18,6 +18,9 @@ HAND_CODED, EVO_8 = "hand-coded", "EVO 8"
 SWARM_SIZES = (5, 10, 20)
 """Robots in Figure 3."""
 
+OF_THE_EVOLVED = ("performance", "scalability", "flexibility")
+"""The experiments whose rule sets the evolution decides."""
+
 ZONE_MISSES = tuple(round(0.01 * step, 2) for step in range(21))
 _ARGOS = Path(__file__).with_name("argos.yaml")
 

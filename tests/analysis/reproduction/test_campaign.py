@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import pytest
 
@@ -85,6 +86,33 @@ def test_runs_that_are_there_are_adopted(whole, tmp_path):
     assert made(place.parent) == made(whole)
 
 
+@pytest.mark.slow
+def test_a_campaign_that_is_extended_is_the_one_that_was_larger_from_the_start(whole, tmp_path):
+    directory = tmp_path / "part"
+    assert main(ask(directory, Plan(runs=1, generations=1, evaluations=3))) == 0
+    (directory / "campaign.yaml").write_text(
+        (directory / "campaign.yaml").read_text().replace(__version__, "0.0.7")
+    )
+    asked = ["reproduce", "--out", str(directory), "--runs", "2", "--generations", "2"]
+    kept = (directory / "data" / "sensitivity.csv").stat().st_mtime_ns
+    assert main(asked) == 0
+    assert made(directory) == made(whole)
+    assert (directory / "data" / "sensitivity.csv").stat().st_mtime_ns == kept
+    assert "began with GESwarm 0.0.7" in Campaign.at(directory).remarks[0]
+
+
+def test_what_an_extension_makes_wrong_is_gone_before_it_begins(tmp_path):
+    directory = tmp_path / "tiny"
+    ask(directory)
+    (directory / "data").mkdir()
+    for name in ("report.html", "data/performance.csv", "data/sensitivity.csv"):
+        (directory / name).write_text("of two generations")
+    assert Campaign.at(directory, generations=3).plan == replace(TINY, generations=3)
+    assert Campaign.at(directory).plan.generations == 3
+    assert [path.name for path in (directory / "data").iterdir()] == ["sensitivity.csv"]
+    assert not (directory / "report.html").exists()
+
+
 def command(arguments):
     return subprocess.Popen(
         [sys.executable, "-m", "geswarm.cli", *arguments], stderr=subprocess.PIPE, text=True
@@ -150,7 +178,10 @@ def test_stop_keeps_what_is_done(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--runs", "3"], "holds a campaign with runs 2 and not 3; choose another directory"),
+        (["--runs", "1"], "holds a campaign with runs 2 and not 1; choose another directory"),
+        (["--runs", "3", "--generations", "1"], "runs 2 and not 3, generations 2 and not 1"),
+        (["--runs", "10001"], "runs: expected at most 10000, got 10001"),
+        (["--generations", "1000001"], "generations: expected at most 1000000, got 1000001"),
         (["--quick"], "generations 2 and not 50, evaluations 3 and not 20"),
         (["--seed", "2"], "seed 1 and not 2"),
         (["--workers", "2", "--cluster", "x"], "--workers is for this machine"),
@@ -206,9 +237,19 @@ def test_a_campaign_of_another_version_says_so(tmp_path):
         Campaign.at(tmp_path)
 
 
-def test_a_foreign_run_is_refused(tmp_path):
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda config: replace(config, settings=replace(config.settings, generations=3)),
+        lambda config: replace(
+            config, settings=replace(config.settings, generations=1, mutation=0)
+        ),
+        lambda config: replace(config, seed=2),
+    ],
+)
+def test_a_foreign_run_is_refused(tmp_path, wrong):
     campaign = Campaign.at(tmp_path, runs=1, generations=2)
-    config = Plan(generations=3).run_config(1)
+    config = wrong(Plan(generations=2).run_config(1))
     EvolutionRun.create(config, tmp_path / "evolution" / "seed-1").close()
     with pytest.raises(CampaignError, match="expected a run in the scenario paper with the preset"):
         campaign.run()
