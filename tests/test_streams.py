@@ -60,6 +60,18 @@ def test_a_closed_output_is_one_line_and_a_status(arguments):
     assert shell(">&-", *arguments) == (1, "", CLOSED)
 
 
+@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="no name of standard output")
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1"])
+def test_a_name_of_standard_output_is_standard_output(name, tmp_path):
+    arguments = ["export", "evo8", "--to", "text", "-o", name]
+    assert shell(">&-", *arguments) == (1, "", CLOSED)
+    log = tmp_path / "log"
+    log.write_text("before\n")
+    assert shell(f">>{log}", *arguments) == (0, "", "")
+    assert log.read_text() == "before\n" + shell("", *arguments[:-2])[1]
+    assert shell(">&-", *arguments[:-1], os.devnull) == (0, "", "")
+
+
 @pytest.mark.parametrize("module", ["geswarm.cli", "geswarm.app.main"])
 def test_nothing_to_print_needs_no_output(module):
     status, out, err = shell(">&-", "nonsense", "--nonsense", module=module)

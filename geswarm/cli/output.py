@@ -17,20 +17,24 @@ if TYPE_CHECKING:
     from rich.progress import ProgressColumn
     from rich.table import Column
 
+_STANDARD_OUTPUT = ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
+"""Opened by name it would be cut to nothing where it is a file, and never closed."""
+
 _NARROWEST_NAME = 10
 _LONGEST_STEM = 100  # bytes; file systems take 143 to 255
 
 
 def write_files(files: Mapping[str | None, str]) -> None:
-    """Write each text to its file, as a whole, or to standard output.
+    """Write each text to its file, as a whole, or to standard output, also by one of its names.
 
     Raises:
         UsageError: A file cannot be written.
+        OutputError: Standard output cannot be.
     """
     from geswarm.rules.library import write_whole
 
     for path, text in files.items():
-        if path is None:
+        if path is None or path in _STANDARD_OUTPUT:
             sys.stdout.write(text)
             continue
         try:
