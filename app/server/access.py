@@ -51,6 +51,7 @@ class Access:
     @classmethod
     def to_host(cls, host: str, private: bool = False, names: Collection[Name] = ()) -> Access:
         """With a new token if other machines reach `host`, or if `private` asks for one."""
+        host = plain_address(host)
         demanded = private or not is_loopback(host)
         return cls(host, secrets.token_urlsafe() if demanded else None, names)
 
@@ -246,6 +247,15 @@ def machine_address(host: str) -> str:
         except OSError:  # no network
             host = "localhost"
     return f"[{host}]" if ":" in host else host
+
+
+def plain_address(host: str) -> str:
+    """An address as browsers write it, 127.0.0.1 for 127.1 or 0x7f000001; names are left alone."""
+    try:
+        found = socket.getaddrinfo(host, None, flags=socket.AI_NUMERICHOST)
+    except (OSError, UnicodeError):
+        return host
+    return str(found[0][4][0])
 
 
 def is_loopback(host: str) -> bool:

@@ -5,6 +5,10 @@ from __future__ import annotations
 import errno
 import os
 import socket
+from ipaddress import ip_address
+
+_NOBODY_COMES = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.EACCES, errno.EADDRNOTAVAIL)
+"""How a connection fails to an address that is everybody's: broadcast or multicast."""
 
 
 class ServerError(RuntimeError):
@@ -34,11 +38,25 @@ def free_port(host: str, port: int) -> int:
 
 
 def _listen(host: str, port: int) -> None:
-    """Listen for a moment, in the same way as asyncio's servers."""
+    """Listen for a moment, in the same way as asyncio's servers, and see whether one can come."""
     for family, _, _, _, address in socket.getaddrinfo(
         host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
     ):
-        socket.create_server(address, family=family).close()
+        with socket.create_server(address, family=family) as server:
+            if not ip_address(address[0]).is_unspecified:
+                _require_reachable(host, server)
+
+
+def _require_reachable(host: str, server: socket.socket) -> None:
+    """Raise ServerError where one can listen and nobody can connect; slow machines pass."""
+    with socket.socket(server.family, socket.SOCK_STREAM) as visitor:
+        visitor.setblocking(False)
+        failed = visitor.connect_ex(server.getsockname())
+    if failed in _NOBODY_COMES:
+        raise ServerError(
+            f"host: nobody could connect to {host!r}: {os.strerror(failed)}, as with addresses "
+            "that stand for many machines; expected one of this machine, or 0.0.0.0 for all of it"
+        )
 
 
 def _why_not(host: str, port: int, error: OSError) -> str:

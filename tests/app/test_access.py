@@ -269,6 +269,25 @@ LOCKED = Access.to_host("0.0.0.0")
 AT = "192.168.0.7:8080"
 
 
+@pytest.mark.parametrize(
+    ("host", "plain"),
+    [
+        ("0", "0.0.0.0"),
+        ("127.1", "127.0.0.1"),
+        ("0x7f000001", "127.0.0.1"),
+        ("::0", "::"),
+        ("0:0::1", "::1"),
+        ("localhost", "localhost"),
+        ("no.such.host.invalid", "no.such.host.invalid"),
+        ("x..y", "x..y"),
+    ],
+)
+def test_an_address_is_written_as_browsers_write_it(host, plain):
+    access = Access.to_host(host)
+    assert access.host == plain
+    assert (access.token is None) == is_loopback(plain)
+
+
 def test_a_token_is_demanded_where_other_machines_can_come_or_on_request():
     assert Access.to_host("127.0.0.1").token is None
     assert Access.to_host("localhost").token is None

@@ -74,6 +74,10 @@ def test_each_cause_is_told_and_never_called_busy(number, port, message, monkeyp
         ("256.1.1.1", "no address is known for this name"),
         ("192.0.2.1", "this is not an address of this machine"),
         ("x..y", "expected a name or an address, got 'x..y'"),
+        ("255.255.255.255", "nobody could connect|cannot listen"),
+        ("224.0.0.1", "nobody could connect|cannot listen"),
+        ("127.255.255.255", "nobody could connect|cannot listen"),
+        ("ff02::1", "nobody could connect|cannot listen"),
     ],
 )
 def test_a_host_that_is_none_is_told(host, message):
