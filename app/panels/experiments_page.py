@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from geswarm.analysis.reproduction import CampaignError
@@ -163,11 +162,11 @@ class ExperimentsPage:
         """Another number of runs, seed, or rule set to compare with."""
         name, comparison = _text(message, "name"), self.session.comparison
         if name == "against":
-            comparison.choice = replace(comparison.choice, against=_text(message, "value"))
+            comparison.change(against=_text(message, "value"))
         elif name == "runs":
-            comparison.choice = replace(comparison.choice, runs=_value(message))
+            comparison.change(runs=_value(message))
         elif name == "seed":
-            comparison.choice = replace(comparison.choice, seed=_value(message))
+            comparison.change(seed=_value(message))
         else:
             raise RequestError(f"expected against, runs or seed, got {name!r}")
 

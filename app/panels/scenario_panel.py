@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import viser
@@ -13,7 +12,7 @@ import viser
 from geswarm.sim import NEEDS_RESET, Scenario
 
 from ..state.session import Session
-from .widgets import Mirror
+from .widgets import Mirror, Refusal
 
 APPLY_SECONDS = 0.6
 """A number counts once it has stood for this long: every keystroke arrives as a change."""
@@ -87,11 +86,10 @@ class ScenarioPanel:
         self._mirror = Mirror()
         self._numbers: dict[str, viser.GuiNumberHandle[float]] = {}
         self._wanted: dict[str, tuple[float, float]] = {}  # by key: value, and when it was typed
-        self._text = ""
 
     def build(self, gui: viser.GuiApi) -> None:
         """Make the widgets in the present container."""
-        self._problem = gui.add_html("", visible=False)
+        self._refusal = Refusal(gui)
         for title, needs_reset in (
             ("acts at once", False),
             ("starts the run again", True),
@@ -120,13 +118,7 @@ class ScenarioPanel:
         self._restore.disabled = session.scenario == session.loaded
         if self._restore.label != self._restore_label():
             self._restore.label = self._restore_label()
-        if session.scenario_problem != self._text:
-            self._text = session.scenario_problem
-            self._problem.content = (
-                '<div style="margin:.2em .9em;padding:.4em .6em;font-size:.85em;border-radius:4px;'
-                f'background:#fdecea;color:#8a1c12">Not possible: {escape(self._text)}</div>'
-            )
-            self._problem.visible = bool(self._text)
+        self._refusal.show(session.scenario_problem)
 
     def _add_number(self, gui: viser.GuiApi, value: Value) -> None:
         number = gui.add_number(

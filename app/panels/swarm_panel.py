@@ -15,7 +15,7 @@ from ..state.keys import KEYS, Key
 from ..state.plan import LARGEST_SEED
 from ..state.playback import SPEEDS, clock
 from ..state.session import Command, Session
-from .widgets import Mirror
+from .widgets import Mirror, Refusal
 
 _PLAY, _PAUSE, _STEP, _RESET = "Play", "Pause", "Step", "Reset"
 _NOTHING = "nothing"
@@ -109,6 +109,7 @@ class SwarmPanel:
             name = event.target.value
             post(lambda s: compare_with(s, None if name == _NOTHING else name))
 
+        self._refusal = Refusal(gui)
         for key, label, command in KEYS:
             add_key(gui, session, key, label, command)
         self.handles = SwarmHandles(score, play, back, speed, scenario, seed, compare)
@@ -135,6 +136,8 @@ class SwarmPanel:
         offered = tuple(dict.fromkeys((_NOTHING, *session.rivals_offered(), rival)))
         if handles.compare.options != offered:
             handles.compare.options = offered
+        if self._refusal.show(session.rival_problem):
+            self._mirror.forget(handles.compare)
         self._mirror.show(handles.compare, rival)
 
 

@@ -133,6 +133,12 @@ class Comparison:
             left = tuple(name for name in self.choice.rules if name in offered)
             self.choice = replace(self.choice, rules=left)
 
+    def change(self, **values: Any) -> None:
+        """Choose otherwise, see `Choice`; why the last comparison failed is then of no interest."""
+        self.choice = replace(self.choice, **values)
+        if self.progress is not None and self.progress.error:
+            self.progress = replace(self.progress, error="")
+
     def add_file(self, name: str, text: str) -> None:
         """Offer the rule set of a file, and choose it.
 
@@ -165,10 +171,7 @@ class Comparison:
         if not wanted:
             chosen.remove(name)
         ordered = tuple(one for one in known if one in chosen)
-        if what == "rules":
-            self.choice = replace(self.choice, rules=ordered)
-        else:
-            self.choice = replace(self.choice, scenarios=ordered)
+        self.change(**{what: ordered})
 
     def start(self, table: RuleSet, arena: Scenario) -> None:
         """Begin what is chosen; a comparison under way is dropped.

@@ -58,6 +58,7 @@ class Session(RuleCommands):
         journal: What of them would be lost in a crash, and what was left by earlier ones.
         world: The swarm.
         rival: The swarm beside it, if there is one.
+        rival_problem: Why the last rule set that was asked for is not beside it, else empty.
         trace: Where the robots have been.
         past: The runs before, which can be gone back to.
         playback: Play, pause, speed.
@@ -90,6 +91,7 @@ class Session(RuleCommands):
         self.journal = journal or Journal(None)
         self.world = World(scenario, rule_set, seed)
         self.rival: Rival | None = None
+        self.rival_problem = ""
         self.trace = Trace(scenario, self.world.state)
         self.past = PastRuns()
         self.playback = Playback(CONTROL_STEP)
@@ -277,13 +279,16 @@ class Session(RuleCommands):
     def compare_with(self, name: str | None) -> None:
         """Run another rule set beside this one, both from the start; None ends it.
 
-        Raises:
-            KeyError: There is none of that name now.
+        What is no longer there is not compared with; `rival_problem` tells.
         """
+        self.rival_problem = ""
         if name is None:
             self.rival = None
             return
-        rule_set = rivals_offered(self.document, self.runs)[name]
+        rule_set = rivals_offered(self.document, self.runs).get(name)
+        if rule_set is None:
+            self.rival_problem = f"{name!r} is no longer there to compare with"
+            return
         self.past.keep(self._run())
         self.rival = Rival(name, Swarm(World(self.scenario, rule_set, self.world.seed)))
         self._begin(None)

@@ -214,6 +214,24 @@ def test_a_rival_runs_beside_and_the_score_runs(dashboard, session, screen):
     wait_until(lambda: session.rival is None and dashboard.stage.rival.handles is None)
 
 
+def test_a_rival_that_has_just_gone_is_told_until_something_else_is_chosen(
+    dashboard, session, screen, monkeypatch
+):
+    monkeypatch.setattr(type(session), "rivals_offered", lambda _: ("Hand-coded", "gone"))
+    compare = screen.get_by_label("Compare with")
+    wait_until(lambda: "gone" in dashboard.swarm_panel.handles.compare.options)
+    compare.click()
+    screen.get_by_role("option", name="gone").click()
+    told = screen.get_by_text("Not possible: 'gone' is no longer there to compare with")
+    told.wait_for()
+    wait_until(lambda: compare.input_value() == "nothing")
+    compare.click()
+    screen.get_by_role("option", name="Hand-coded").click()
+    wait_until(lambda: session.rival is not None)
+    told.wait_for(state="hidden")
+    session.post(lambda session: session.compare_with(None))
+
+
 def test_scenario_values_act_live_or_through_a_reset_and_errors_are_kind(session, screen):
     session.post(lambda session: session.play())
     open_folder(screen, "Scenario")

@@ -143,6 +143,27 @@ def test_the_best_of_a_run_is_offered_as_long_as_it_is_there(talker, tmp_path):
     assert "best of first" not in chosen(talker, "rules")
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"kind": "choice", "name": "runs", "value": 20},
+        {"kind": "choose", "what": "scenarios", "name": "scalability-5", "on": True},
+        {"kind": "compare"},
+    ],
+)
+def test_why_a_comparison_failed_is_told_until_something_else_is_asked(talker, change, monkeypatch):
+    def fails(*_, **__):
+        raise MemoryError("too many robots")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("geswarm.app.state.comparison.run_cases", fails)
+        talker.say("compare")
+        talker.until(lambda: not talker.last("compared")["busy"])
+    assert talker.last("compared")["error"] == "MemoryError: too many robots"
+    talker.say(**change)
+    talker.until(lambda: talker.last("compared")["error"] == "")
+
+
 def test_a_cancelled_comparison_is_over(talker):
     talker.say("choose", what="scenarios", name="scalability-20", on=True)
     talker.say("choice", name="runs", value=1000)

@@ -124,15 +124,16 @@ def test_the_rival_follows_reset_seed_and_scenario(session):
 
 def test_only_what_there_is_can_be_compared_with(session):
     assert session.rivals_offered() == ("EVO 8", "Evolved", "Hand-coded")
-    with pytest.raises(KeyError):
-        session.compare_with(best_of("run"))
+    session.compare_with(best_of("run"))
     assert session.rival is None
+    assert session.rival_problem == "'best of run' is no longer there to compare with"
     session.edit(HALF_P)
     assert BEFORE in session.rivals_offered()
     session.evolution.best = load_preset("hand-coded")
     session.evolution.directory = Path("runs/mine")
     session.compare_with("best of mine")
     assert session.rival.swarm.world.rule_set == load_preset("hand-coded")
+    assert session.rival_problem == ""
 
 
 def test_the_version_before_the_edit_moves_on_with_every_edit(session):
