@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
+from geswarm.drafts import DRAFTS
 from geswarm.evolution import RunConfig, RunConfigError
 from geswarm.ge import RunStore, StoreError
 from geswarm.ge.database import OWN_FILES, require_run
@@ -113,8 +114,8 @@ class RunFolder:
             require_run(directory / "run.db")
             claim = Claim(directory)
             try:
-                for own in _OWN:
-                    (directory / own).unlink(missing_ok=True)
+                for own in (*directory.glob(DRAFTS), *(directory / name for name in _OWN)):
+                    own.unlink(missing_ok=True)
             finally:
                 claim.give_up()
             left = sorted(path.name for path in directory.iterdir())

@@ -19,6 +19,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from geswarm.drafts import draft_of
 from geswarm.ge import database, locks, steering
 from geswarm.ge.database import OWN_FILES, StoreError, kind_errors
 from geswarm.ge.engine import State
@@ -341,11 +342,5 @@ def _says_something_else(path: Path, text: str) -> bool:
 
 def _write_atomically(path: Path, text: str) -> None:
     """Readers see the old file or the new one, never a part."""
-    partial = path.with_name(path.name + ".part")
-    try:
-        partial.unlink(missing_ok=True)  # of somebody else's run it may be a link to anywhere
-        partial.write_text(text, encoding="utf-8", newline="")
-        partial.replace(path)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
+    with draft_of(path) as draft, draft.open("x", encoding="utf-8", newline="") as file:
+        file.write(text)

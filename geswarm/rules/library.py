@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import secrets
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from geswarm.drafts import draft_of
 from geswarm.plain_text import NotTextError, read_file, read_stream, tidy
 from geswarm.rules.as_json import format_json, parse_json
 from geswarm.rules.findings import Finding, Place, RuleSetError, unknown_name
@@ -132,11 +132,8 @@ def write_whole(text: str, path: str | Path, through_links: bool = True) -> None
     if (link and through_links) or (not link and path.exists() and not path.is_file()):
         path.write_text(text, encoding="utf-8", errors="backslashreplace")
         return
-    draft = path.with_name(f".{secrets.token_hex(4)}.part")  # short, whatever the file's name
-    try:
-        with draft.open("x", encoding="utf-8", errors="backslashreplace") as file:  # not a link
-            file.write(text)
-        draft.replace(path)
-    except BaseException:
-        draft.unlink(missing_ok=True)
-        raise
+    with (
+        draft_of(path) as draft,
+        draft.open("x", encoding="utf-8", errors="backslashreplace") as file,  # a new one, no link
+    ):
+        file.write(text)

@@ -87,6 +87,7 @@ def other_database(path):
 
 
 def test_deleting_removes_the_run_and_nothing_else(folder):
+    (folder.path / "good" / ".geswarm-0123abcd.part").write_text("of a process that was killed")
     assert folder.delete("good") == ""
     assert sorted(path.name for path in folder.path.iterdir()) == ["notes", "run.db"]
     assert (folder.path / "notes" / "config.yaml").exists()

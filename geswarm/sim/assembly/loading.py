@@ -10,13 +10,13 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import importlib.util
-import os
 import sys
 import types
 from collections.abc import Iterable
 from pathlib import Path
 
 import geswarm.sim.kernels
+from geswarm.drafts import draft_of
 from geswarm.sim.kernels import cache
 
 
@@ -61,13 +61,10 @@ def _is_kept(path: Path, text: str) -> bool:
     with contextlib.suppress(OSError, UnicodeDecodeError):
         if path.read_text(encoding="utf-8") == text:
             return True
-    draft = path.with_name(f"{os.getpid()}.part")
     try:
-        draft.write_text(text, encoding="utf-8")
-        draft.replace(path)
+        with draft_of(path) as draft:
+            draft.write_text(text, encoding="utf-8")
     except OSError:
-        with contextlib.suppress(OSError):
-            draft.unlink(missing_ok=True)
         return False
     return True
 

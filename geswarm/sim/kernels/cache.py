@@ -11,7 +11,6 @@ import functools
 import pickle  # nosec B403
 import sys
 import tempfile
-import uuid
 import zlib
 from collections.abc import Callable, Iterator
 from hashlib import sha256
@@ -21,6 +20,8 @@ from typing import Any
 import numba
 from numba.core import caching, compiler, serialize
 from numba.misc.appdirs import AppDirs
+
+from geswarm.drafts import draft_of
 
 _config: Any = numba.config
 _caching: Any = caching
@@ -103,14 +104,10 @@ class KernelCache(_caching._Cache):  # type: ignore[misc]
             raise ValueError(f"{self._name}: pointers and large global arrays cannot be kept")
         code = serialize.dumps(data._reduce())
         path = self._file(sig, data.codegen)
-        draft = path.with_name(f"{uuid.uuid4().hex}.part")
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            try:
+            with draft_of(path) as draft:
                 draft.write_bytes(_checksum(code) + code)
-                draft.replace(path)
-            finally:
-                draft.unlink(missing_ok=True)
         except OSError as error:
             _not_kept.append(f"{path.parent}: {error.strerror}")
 
