@@ -96,7 +96,7 @@ def test_rule_sets_of_every_editor_are_read(tmp_path, monkeypatch, form, editor)
 
 @pytest.mark.parametrize("line_end", LINE_ENDS)
 def test_errors_name_the_line_of_the_editor(tmp_path, line_end):
-    for name, text in (("a.rules", "rule\n\n  do x"), ("a.json", '{\n"rules": [],\n}')):
+    for name, text in (("a.rules", "rule\n\n  do x"), ("a.json", '{\n"rules":\n}')):
         (tmp_path / name).write_bytes(text.encode().replace(b"\n", line_end))
         with pytest.raises(RuleSetError, match=f"{name}:3: "):
             load_rule_set(str(tmp_path / name))

@@ -90,8 +90,9 @@ class Layout:
 
 def text_width(text: str, size: float) -> float:
     """About as wide as the wider of common sans-serif fonts sets it in bold."""
-    ems = sum(0.77 if char.isupper() else 0.38 if char in " ,.()·" else 0.67 for char in text)
-    return ems * size
+    # In whole hundredths: Python from 3.12 on adds fractions otherwise than before.
+    ems = sum(77 if char.isupper() else 38 if char in " ,.()·" else 67 for char in text)
+    return ems * size / 100
 
 
 def state_lines(state: State) -> Lines:
