@@ -1,115 +1,88 @@
-"""The evolution page and the session, talking JSON (see static/evolution/protocol.js)."""
+"""The evolution page and the session (see app/protocol/evolution.py)."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 from geswarm.evolution import InjectionError
 from geswarm.ge import STEERABLE, SettingsError, StoreError
 from geswarm.rules import RuleSet
 
-from ..server.channel import Channel, Client, Message
+from ..protocol import evolution as told
+from ..protocol import evolution_requests as asked
+from ..server.channel import Client
 from ..state.look import Chosen
-from ..state.plan import PlanError
+from ..state.plan import RunPlanError
 from ..state.rival import CHOSEN
 from ..state.run_folder import RunError
 from ..state.session import Session
 from . import evolution_messages as messages
-
-REFRESH_SECONDS = 0.5
-WATCHED_SECONDS = 3.0
-"""How long a page that said that it is in view is believed."""
-MAX_NAME = 255
+from .page import RequestError, Sources, WatchedPage
 
 
-class RequestError(ValueError):
-    """A message of a page that cannot be carried out as it is; says why."""
-
-
-class EvolutionPage:
+class EvolutionPage(WatchedPage):
     """Carries out what pages ask for and keeps all of them up to date."""
 
+    refusals = (RequestError, RunPlanError, RunError, InjectionError, SettingsError, StoreError)
+    typed = (told.PlanMessage, told.EvolutionMessage, told.RunsMessage)
+
     def __init__(self, session: Session) -> None:
-        self.session = session
-        self.channel = Channel(
-            on_message=lambda client, message: session.post(
-                lambda _: self._receive(client, message)
-            ),
-            on_connect=lambda client: session.post(lambda _: self._greet(client)),
-        )
-        self._watched = 0.0
-        self._since_refresh = REFRESH_SECONDS
-        self._seen: dict[str, tuple[object, ...]] = {}
+        super().__init__(session, "evolution")
         runs = session.runs
-        self._carry_out: dict[str, Callable[[Message], str | None]] = {
-            "watch": self._watch,
-            "preset": self._preset,
-            "plan": self._plan,
-            "freeze": lambda message: runs.freeze(_whole(message, "rule"), _switch(message, "on")),
-            "start": self._start,
-            "pause": lambda _: runs.evolution.pause(),
-            "go_on": lambda _: runs.evolution.go_on(),
-            "stop": lambda _: runs.evolution.stop(0.0),
-            "steer": self._steer,
-            "inject": self._inject,
-            "load_best": self._load_best,
-            "choose": lambda message: runs.choose(
-                _whole(message, "generation"), _whole(message, "key")
-            ),
-            "forget": lambda _: runs.forget(),
-            "load": self._load,
-            "compare_with": self._compare_with,
-            "open": lambda message: runs.open(_name(message)),
-            "compare": lambda message: runs.compare(_name(message), _switch(message, "on")),
-            "resume": self._resume,
-            "delete": self._delete,
+        self.carry_out = {
+            asked.ChoosePreset: self._preset,
+            asked.SetPlan: self._plan,
+            asked.Freeze: lambda message: runs.freeze(message.rule, message.on),
+            asked.StartRun: self._start,
+            asked.PauseRun: lambda _: runs.evolution.pause(),
+            asked.GoOn: lambda _: runs.evolution.go_on(),
+            asked.StopRun: lambda _: runs.evolution.stop(0.0),
+            asked.Steer: self._steer,
+            asked.Inject: self._inject,
+            asked.LoadBest: self._load_best,
+            asked.ChooseIndividual: lambda message: runs.choose(message.generation, message.key),
+            asked.Forget: lambda _: runs.forget(),
+            asked.LoadChosen: self._load,
+            asked.CompareWith: self._compare_with,
+            asked.OpenRun: lambda message: runs.open(message.name),
+            asked.CompareRun: lambda message: runs.compare(message.name, message.on),
+            asked.ResumeRun: self._resume,
+            asked.DeleteRun: self._delete,
         }
 
-    def sync(self, elapsed: float) -> None:
-        """Send what has changed to all pages; called by the loop once a frame."""
-        if self._watched <= 0.0:
-            return
-        self._watched -= elapsed
-        self._since_refresh += elapsed
-        if self._since_refresh >= REFRESH_SECONDS:
-            self._since_refresh = 0.0
-            self.session.runs.refresh()
-        for kind, (source, build) in self._sources().items():
-            if self._seen.get(kind) != source:
-                self._seen[kind] = source
-                self.channel.broadcast(build(), live=True)
+    def refresh(self) -> None:
+        """Look at the runs that are kept."""
+        self.session.runs.refresh()
 
-    def _sources(self) -> dict[str, tuple[tuple[object, ...], Callable[[], Message]]]:
-        """By type of message: what it is made of, and how."""
+    def sources(self) -> Sources:
+        """What the page is told."""
         session, runs = self.session, self.session.runs
         evolution, look, plan = runs.evolution, runs.look, runs.plan
         rule_set, scenario = session.document.rule_set, session.scenario
         progress = (evolution.phase, evolution.error, evolution.settings, len(evolution.history))
         compared = tuple(runs.compared.items())
         return {
-            "plan": (
+            told.PlanMessage: (
                 (plan, rule_set, scenario),
                 lambda: messages.plan_message(plan, scenario, rule_set),
             ),
-            "status": (
+            told.EvolutionMessage: (
                 (*progress, evolution.generations, runs.shown, runs.problem, look, runs.kept),
                 lambda: messages.status_message(runs),
             ),
-            "curves": (
+            told.CurvesMessage: (
                 (look, len(runs.references)),
                 lambda: messages.curves_message(runs),
             ),
-            "compared": (
+            told.ComparedRunsMessage: (
                 (compared, runs.kept, evolution.phase, runs.done),
                 lambda: messages.compared_message(runs),
             ),
-            "population": ((look,), lambda: messages.population_message(look)),
-            "ancestors": ((look,), lambda: messages.ancestors_message(look)),
-            "runs": (
+            told.PopulationMessage: ((look,), lambda: messages.population_message(look)),
+            told.AncestorsMessage: ((look,), lambda: messages.ancestors_message(look)),
+            told.RunsMessage: (
                 (compared, runs.kept, evolution.phase, runs.done),
                 lambda: messages.runs_message(runs),
             ),
-            "chosen": (
+            told.ChosenMessage: (
                 (runs.chosen,),
                 lambda: messages.chosen_message(runs.chosen),
             ),
@@ -117,85 +90,58 @@ class EvolutionPage:
 
     def _greet(self, client: Client) -> None:
         self.channel.send(client, messages.form_message())
-        for _, build in self._sources().values():
-            self.channel.send(client, build(), live=True)
-        self.channel.welcome(client)
-        self._watch({})
-
-    def _watch(self, _message: Message) -> None:
-        """A page is in view."""
-        if self._watched <= 0.0:
-            self._since_refresh = REFRESH_SECONDS
-        self._watched = WATCHED_SECONDS
-
-    def _receive(self, client: Client, message: Message) -> None:
-        kind = str(message.get("type"))
-        try:
-            if kind not in self._carry_out:
-                raise RequestError(f"unknown message {kind!r}")
-            told = self._carry_out[kind](message)
-        except _REFUSALS as error:
-            self.channel.send(client, messages.notice_message(str(error)))
-            for shown in ("plan", "status", "runs"):  # what was typed or ticked is not what holds
-                self.channel.send(client, self._sources()[shown][1](), live=True)
-        else:
-            if told:
-                self.channel.send(client, messages.notice_message(told, "info"))
+        super()._greet(client)
 
     # --- what a page can ask for; what is returned is told to it --------------------------------
 
-    def _preset(self, message: Message) -> None:
+    def _preset(self, message: asked.ChoosePreset) -> None:
         runs = self.session.runs
-        runs.plan = runs.plan.with_preset(_name(message))
+        runs.plan = runs.plan.with_preset(message.name)
 
-    def _plan(self, message: Message) -> None:
+    def _plan(self, message: asked.SetPlan) -> None:
         runs = self.session.runs
-        runs.plan = runs.plan.with_value(_name(message), message.get("value"))
+        runs.plan = runs.plan.with_value(message.name, message.value)
 
-    def _start(self, message: Message) -> None:
-        self._require_rest(message)
+    def _start(self, message: asked.StartRun) -> None:
+        self._require_rest(message.instead)
         self.session.runs.start(self.session.scenario)
 
-    def _resume(self, message: Message) -> None:
-        self._require_rest(message)
-        name, generations = _name(message), message.get("generations")
-        if generations is not None and type(generations) is not int:
-            raise RequestError(f"generations: expected a whole number, got {str(generations)[:40]}")
-        self.session.runs.resume(name, generations)
+    def _resume(self, message: asked.ResumeRun) -> None:
+        self._require_rest(message.instead)
+        self.session.runs.resume(message.name, message.generations)
 
-    def _require_rest(self, message: Message) -> None:
-        if self.session.evolution.active and message.get("instead") is not True:
+    def _require_rest(self, instead: bool) -> None:
+        if self.session.evolution.active and not instead:
             raise RequestError("an evolution is under way: stop it first")
         if self.session.campaigns.thread.active:
             raise RequestError("a campaign is under way: stop it first, on the page Experiments")
 
-    def _steer(self, message: Message) -> None:
-        name, value = _name(message), message.get("value")
-        if name not in STEERABLE or not isinstance(value, int | float):
-            raise RequestError(
-                f"expected a number for {', '.join(STEERABLE)}, got {name} {value!r}"
-            )
+    def _steer(self, message: asked.Steer) -> None:
+        name, value = message.name, message.value
+        if name not in STEERABLE:
+            known = ", ".join(STEERABLE)
+            raise RequestError(f"expected a number for {known}, got {name} {value!r}")
         self.session.evolution.steer(**{name: value})
 
-    def _inject(self, _message: Message) -> str:
+    def _inject(self, _: asked.Inject) -> str:
         rule_set = self.session.document.rule_set
         self.session.evolution.inject(rule_set)
         return f"{rule_set.name or 'The rules of the table'}: enters with the next generation"
 
-    def _load_best(self, _message: Message) -> str:
+    def _load_best(self, _: asked.LoadBest) -> str:
         best = self.session.runs.best
         if best is None:
             raise RequestError("there is no best rule set yet")
         return self._put_in_place(best)
 
-    def _load(self, _message: Message) -> str:
+    def _load(self, _: asked.LoadChosen) -> str:
         return self._put_in_place(self._chosen.rule_set)
 
     def _put_in_place(self, rule_set: RuleSet) -> str:
         self.session.load(rule_set)
         return f"{rule_set.name}: now in the table and in the arena; undo takes it out again"
 
-    def _compare_with(self, _message: Message) -> str:
+    def _compare_with(self, _: asked.CompareWith) -> str:
         name = self._chosen.rule_set.name
         self.session.compare_with(CHOSEN)
         return f"{name}: runs in the arena beside the rules of the table"
@@ -207,30 +153,6 @@ class EvolutionPage:
             raise RequestError("expected an individual that was clicked")
         return chosen
 
-    def _delete(self, message: Message) -> str:
-        left = self.session.runs.delete(_name(message))
-        return f"{_name(message)} was deleted, except for {left}" if left else ""
-
-
-_REFUSALS = (RequestError, PlanError, RunError, InjectionError, SettingsError, StoreError)
-
-
-def _name(message: Message) -> str:
-    name = message.get("name")
-    if not isinstance(name, str) or len(name) > MAX_NAME:
-        raise RequestError(f"name: expected a text of at most {MAX_NAME} characters")
-    return name
-
-
-def _whole(message: Message, key: str) -> int:
-    value = message.get(key)
-    if type(value) is not int or not 0 <= value < 2**53:
-        raise RequestError(f"{key}: expected a whole number, got {value!r}")
-    return value
-
-
-def _switch(message: Message, key: str) -> bool:
-    value = message.get(key)
-    if not isinstance(value, bool):
-        raise RequestError(f"{key}: expected true or false, got {value!r}")
-    return value
+    def _delete(self, message: asked.DeleteRun) -> str:
+        left = self.session.runs.delete(message.name)
+        return f"{message.name} was deleted, except for {left}" if left else ""

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from geswarm.rules import RuleSet
 
-from ..server.channel import Channel, Client, Message
+from ..protocol import edits
+from ..protocol import rule_requests as asked
+from ..protocol.base import Request
+from ..protocol.rules import ChangedMessage, PeopleMessage, Person
+from ..server.channel import Channel, Client
 
 MAX_NAME = 30
 
-_WORDS = {
-    "undo": "took the last change back",
-    "redo": "made a change again that had been taken back",
-    "set_text": "changed the rules as text",
-    "take_simplified": "simplified the rules",
-    "bring_back": "brought back rules that were not saved",
+_WORDS: dict[type[Request], str] = {
+    asked.Undo: "took the last change back",
+    asked.Redo: "made a change again that had been taken back",
+    asked.SetText: "changed the rules as text",
+    asked.TakeSimplified: "simplified the rules",
+    asked.BringBack: "brought back rules that were not saved",
 }
 
 
@@ -31,15 +35,14 @@ class People:
             return
         self._shown = shown
         for you in present:
-            people = [{"name": client.name, "you": client is you} for client in present]
-            channel.send(you, {"type": "people", "people": people})
+            people = tuple(Person(client.name, client is you) for client in present)
+            channel.send(you, PeopleMessage(people))
 
     def tell_others(self, channel: Channel, who: Client, what: str) -> None:
         """Tell all others what somebody has done; if they cannot keep up, the newest alone."""
         for client in channel.clients:
             if client.welcome and client is not who:
-                changed = {"type": "changed", "who": who.name, "what": what}
-                channel.send(client, changed, live=True)
+                channel.send(client, ChangedMessage(who.name, what), live=True)
 
 
 def one_line(name: str) -> str:
@@ -48,7 +51,7 @@ def one_line(name: str) -> str:
     return " ".join(visible.split())[:MAX_NAME]
 
 
-def change_words(message: Message, before: RuleSet, after: RuleSet) -> str:
+def change_words(message: Request, before: RuleSet, after: RuleSet) -> str:
     """What a message did to the rules, after a name: `changed R3: p = 0.5, RANDOM_WALK`.
 
     Args:
@@ -56,36 +59,35 @@ def change_words(message: Message, before: RuleSet, after: RuleSet) -> str:
         before: The rules as they were.
         after: The rules as they are now.
     """
-    kind = message["type"]
-    if kind == "edit":
-        return _edit_words(message["edit"], before, after)
-    return _WORDS.get(kind) or f"loaded {after.name or 'other rules'}"
+    if isinstance(message, asked.MakeEdit):
+        return _edit_words(message.edit, before, after)
+    return _WORDS.get(type(message)) or f"loaded {after.name or 'other rules'}"
 
 
-def _edit_words(edit: Message, before: RuleSet, after: RuleSet) -> str:
-    if edit["do"] == "set_name":
+def _edit_words(edit: edits.AnyEdit, before: RuleSet, after: RuleSet) -> str:
+    if isinstance(edit, edits.SetName):
         return f"called the rules {after.name}" if after.name else "took the name away"
-    rule = f"R{edit['at' if edit['do'] in ('add_rule', 'paste_rules') else 'rule'] + 1}"
-    match edit["do"]:
-        case "set_comment":
+    rule = f"R{(edit.at if isinstance(edit, edits.PlaceEdit) else edit.rule) + 1}"
+    match edit:
+        case edits.SetComment():
             return f"explained {rule}"
-        case "set_enabled":
-            return f"switched {rule} {'on' if edit['enabled'] else 'off'}"
-        case "move_rule":
-            return f"moved {rule} to R{edit['to'] + 1}"
-        case "remove_rule":
+        case edits.SetEnabled(enabled=enabled):
+            return f"switched {rule} {'on' if enabled else 'off'}"
+        case edits.MoveRule(to=to):
+            return f"moved {rule} to R{to + 1}"
+        case edits.RemoveRule():
             return f"removed {rule}"
-        case "add":
+        case edits.AddElement():
             return f"added to {rule}: {_element_words(edit, after)}"
-        case "remove":
+        case edits.RemoveElement():
             return f"removed from {rule}: {_element_words(edit, before)}"
-        case "set":
+        case edits.SetElement():
             return f"changed {rule}: {_element_words(edit, after)}"
-        case _:  # add_rule, duplicate_rule, paste_rules
+        case _:  # AddRule, DuplicateRule, PasteRules
             added = len(after.rules) - len(before.rules)
             return f"added {'a rule' if added == 1 else f'{added} rules'} at {rule}"
 
 
-def _element_words(edit: Message, rule_set: RuleSet) -> str:
-    elements = getattr(rule_set.rules[edit["rule"]], edit["part"])
-    return str(elements[edit["at"]])
+def _element_words(edit: edits.ElementEdit, rule_set: RuleSet) -> str:
+    elements = getattr(rule_set.rules[edit.rule], edit.part)
+    return str(elements[edit.at])

@@ -1,11 +1,13 @@
-"""What the rule table page is told, as JSON values (see static/protocol.js)."""
+"""What the rule table page is told, made of the session's state."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
+from typing import cast
 
 import numpy as np
+from msgspec import UNSET
 
 from geswarm.rules import (
     FORAGING,
@@ -18,12 +20,12 @@ from geswarm.rules import (
     preset_names,
 )
 from geswarm.rules.arguments import Argument
-from geswarm.rules.as_json import rule_set_to_json
 from geswarm.rules.text import format_rule
 from geswarm.sim import World, WorldState
 
 from .. import palette
-from ..server.channel import Message
+from ..protocol import rules as wire
+from ..protocol.base import NoticeMessage
 from ..state.document import RuleDocument
 from ..state.insight import Insight
 from ..state.journal import Unsaved
@@ -32,227 +34,207 @@ from ..state.verdict import RUNS, Answer
 from ..state.worth import WorthAnswer
 
 
-def vocabulary_message() -> Message:
+def vocabulary_message() -> wire.VocabularyMessage:
     """The names that rules are made of, with their colours, and the presets."""
-    return {
-        "type": "vocabulary",
-        "preconditions": [
-            {
-                "name": entry.name,
-                "holds": entry.holds,
-                "fails": entry.fails,
-                "arguments": _arguments_json(entry.arguments),
-                "values": list(FORAGING.values_of(entry.name)),
-                "comparisons": list(FORAGING.comparisons_of(entry.name)),
-            }
+    return wire.VocabularyMessage(
+        preconditions=tuple(
+            wire.PerceptOffer(
+                name=entry.name,
+                holds=entry.holds,
+                fails=entry.fails,
+                arguments=_arguments(entry.arguments),
+                values=tuple(FORAGING.values_of(entry.name)),
+                comparisons=tuple(FORAGING.comparisons_of(entry.name)),
+            )
             for entry in FORAGING.percepts.values()
-        ],
-        "behaviours": [
-            {
-                "name": entry.name,
-                "doing": entry.doing,
-                "colour": palette.css(palette.behaviour_colour(code)),
-                "arguments": _arguments_json(entry.arguments),
-            }
+        ),
+        behaviours=tuple(
+            wire.BehaviourOffer(
+                name=entry.name,
+                doing=entry.doing,
+                colour=palette.css(palette.behaviour_colour(code)),
+                arguments=_arguments(entry.arguments),
+            )
             for code, entry in enumerate(FORAGING.behaviours)
-        ],
-        "internal_states": [
-            {
-                "name": entry.name,
-                "on": entry.on,
-                "off": entry.off,
-                "values": list(entry.values),
-                "counts": entry.counts,
-            }
+        ),
+        internal_states=tuple(
+            wire.StateOffer(
+                name=entry.name,
+                on=entry.on,
+                off=entry.off,
+                values=tuple(entry.values),
+                counts=entry.counts,
+            )
             for entry in FORAGING.internal_states
-        ],
-        "probabilities": list(FORAGING.probabilities),
-        "presets": [{"name": name, "title": load_preset(name).name} for name in preset_names()],
-    }
+        ),
+        probabilities=tuple(FORAGING.probabilities),
+        presets=tuple(wire.PresetOffer(name, load_preset(name).name) for name in preset_names()),
+    )
 
 
-def _arguments_json(arguments: Iterable[Argument]) -> list[Message]:
-    return [
-        {"name": each.name, "unit": each.unit, "offered": list(each.offered)} for each in arguments
-    ]
+def _arguments(arguments: Iterable[Argument]) -> tuple[wire.ArgumentOffer, ...]:
+    return tuple(wire.ArgumentOffer(each.name, each.unit, each.offered) for each in arguments)
 
 
-def rules_message(document: RuleDocument, insight: Insight | None) -> Message:
+def rules_message(document: RuleDocument, insight: Insight | None) -> wire.RulesMessage:
     """The rules as they stand, in all their forms, with what is known of them so far."""
     rule_set = document.rule_set
-    known: Message = {"findings": []}
-    if insight is not None and insight.version == document.version:
-        known = {
-            "findings": findings_json(insight.findings),
-            "simpler": len(insight.simplification.removed),
-        }
-    return {
-        "type": "rules",
-        "version": document.version,
-        "can_undo": document.can_undo,
-        "can_redo": document.can_redo,
-        "rule_set": rule_set_to_json(rule_set),
-        "english": describe(rule_set),
-        "text": format_text(rule_set),
-        "rule_texts": [format_rule(rule) for rule in rule_set.rules],
-        "loaded": rule_set_to_json(document.loaded),
-        "loaded_text": format_text(document.loaded),
-        **known,
-    }
+    known = insight if insight is not None and insight.version == document.version else None
+    return wire.RulesMessage(
+        version=document.version,
+        can_undo=document.can_undo,
+        can_redo=document.can_redo,
+        rule_set=rule_set,
+        english=tuple(describe(rule_set)),
+        text=format_text(rule_set),
+        rule_texts=tuple(format_rule(rule) for rule in rule_set.rules),
+        loaded=document.loaded,
+        loaded_text=format_text(document.loaded),
+        findings=placed(known.findings) if known else (),
+        simpler=len(known.simplification.removed) if known else UNSET,
+    )
 
 
-def simplified_message(version: int, simplification: Simplification) -> Message:
+def simplified_message(version: int, simplification: Simplification) -> wire.SimplifiedMessage:
     """The shortest rules that behave as those of a version, and what they leave out."""
-    return {
-        "type": "simplified",
-        "version": version,
-        "rule_set": rule_set_to_json(simplification.rule_set),
-        "text": format_text(simplification.rule_set),
-        "removed": list(simplification.removed),
-    }
+    return wire.SimplifiedMessage(
+        version=version,
+        rule_set=simplification.rule_set,
+        text=format_text(simplification.rule_set),
+        removed=tuple(simplification.removed),
+    )
 
 
-def findings_json(findings: Iterable[Finding]) -> list[Message]:
+def placed(findings: Iterable[Finding]) -> tuple[wire.RuleFinding, ...]:
     """Findings with their places; rules count from 1."""
-    return [
-        {
-            "line": finding.place.line,
-            "rule": finding.place.rule,
-            "element": finding.place.element,
-            "message": finding.message,
-            "severity": finding.severity,
-        }
+    return tuple(
+        wire.RuleFinding(
+            line=finding.place.line,
+            rule=finding.place.rule,
+            element=finding.place.element,
+            message=finding.message,
+            severity=finding.severity,
+        )
         for finding in findings
-    ]
+    )
 
 
-def live_message(state: WorldState) -> Message:
+def live_message(state: WorldState) -> wire.LiveMessage:
     """What the swarm does now."""
     robots = np.bincount(state.behaviour, minlength=len(FORAGING.behaviours))
-    return {
-        "type": "live",
-        "time": state.time,
-        "fired": state.rule_counts.tolist(),
-        "behaviours": robots.tolist(),
-        "robots": len(state.behaviour),
-    }
+    return wire.LiveMessage(
+        time=state.time,
+        fired=tuple(state.rule_counts.tolist()),
+        behaviours=tuple(robots.tolist()),
+        robots=len(state.behaviour),
+    )
 
 
-def verdict_message(answer: Answer | None) -> Message:
+def verdict_message(answer: Answer | None) -> wire.VerdictMessage:
     """What is known of the verdict."""
     if answer is None:
-        return {"type": "verdict", "version": 0, "busy": True, "samples": [], "comparisons": []}
-    return {
-        "type": "verdict",
-        "version": answer.question.version,
-        "scenario": answer.question.scenario.name,
-        "runs": RUNS,
-        "busy": answer.busy,
-        "samples": [
-            {"role": sample.role, "name": sample.name, "collected": sample.collected.tolist()}
+        return wire.VerdictMessage(version=0, busy=True)
+    return wire.VerdictMessage(
+        version=answer.question.version,
+        busy=answer.busy,
+        scenario=answer.question.scenario.name,
+        runs=RUNS,
+        samples=tuple(
+            wire.RoleSample(_role(sample.role), sample.name, tuple(sample.collected.tolist()))
             for sample in answer.samples
-        ],
-        "comparisons": [
-            {"role": role, **asdict(comparison)} for role, comparison in answer.comparisons.items()
-        ],
-    }
+        ),
+        comparisons=tuple(
+            wire.RoleComparison(_role(role), **asdict(comparison))
+            for role, comparison in answer.comparisons.items()
+        ),
+    )
 
 
-def worth_message(answer: WorthAnswer) -> Message:
+def _role(role: str) -> wire.Role:
+    return cast(wire.Role, role)  # those of `contestants`
+
+
+def worth_message(answer: WorthAnswer) -> wire.WorthMessage:
     """What is known of the worth of each piece."""
-    return {
-        "type": "worth",
-        "version": answer.version,
-        "busy": answer.busy,
-        "done": len(answer.worths),
-        "total": answer.total,
-        "pieces": [{**asdict(worth.piece), **asdict(worth.change)} for worth in answer.worths],
-    }
+    return wire.WorthMessage(
+        version=answer.version,
+        busy=answer.busy,
+        done=len(answer.worths),
+        total=answer.total,
+        pieces=tuple(
+            wire.WeighedPiece(**asdict(worth.piece), **asdict(worth.change))
+            for worth in answer.worths
+        ),
+    )
 
 
-def states_message(drawn: DrawnMachine) -> Message:
+def states_message(drawn: DrawnMachine) -> wire.StatesMessage:
     """The state machine of the rules and its picture."""
     machine = drawn.machine
     names = machine.space.vocabulary.behaviour_names
-    return {
-        "type": "states",
-        "svg": drawn.svg,
-        "states": [
-            {
-                "label": state.label,
-                "behaviour": asdict(state.behaviour),
-                "means": ", ".join(
+    return wire.StatesMessage(
+        svg=drawn.svg,
+        states=tuple(
+            wire.DrawnState(
+                label=state.label,
+                behaviour=state.behaviour,
+                means=", ".join(
                     [names[state.behaviour.name].says(state.behaviour)[0]]
                     + [f"{name} is {str(value).lower()}" for name, value in state.internal]
                 ),
-                "initial": state.initial,
-            }
+                initial=state.initial,
+            )
             for state in machine.states
-        ],
-        "transitions": [
-            {
-                "source": entry.source,
-                "target": entry.target,
-                "when": str(entry.condition),
-                "rate": entry.rate,
-                "effects": list(machine.effects(entry)),
-                "rules": list(entry.rules),
-                "words": machine.describe(entry),
-            }
+        ),
+        transitions=tuple(
+            wire.DrawnTransition(
+                source=entry.source,
+                target=entry.target,
+                when=str(entry.condition),
+                rate=entry.rate,
+                effects=tuple(machine.effects(entry)),
+                rules=tuple(entry.rules),
+                words=machine.describe(entry),
+            )
             for entry in machine.transitions
-        ],
-    }
+        ),
+    )
 
 
-def activity_message(activity: Activity, world: World) -> Message:
+def activity_message(activity: Activity, world: World) -> wire.ActivityMessage:
     """What the swarm does in the state machine that was sent last."""
-    return {
-        "type": "activity",
-        "time": world.time,
-        "robots": list(activity.robots),
-        "taken": list(activity.taken),
-        "swarm": world.scenario.robots,
-    }
+    return wire.ActivityMessage(world.time, activity.robots, activity.taken, world.scenario.robots)
 
 
-def notice_message(text: str) -> Message:
-    """Something that could not be done."""
-    return {"type": "notice", "level": "error", "text": text}
-
-
-def journal_message(problem: str) -> Message:
+def journal_message(problem: str) -> NoticeMessage:
     """Why rules that are not saved are not kept; empty once they are."""
     words = f"If the dashboard is killed, rules that were not saved are lost: {problem}"
-    return {**notice_message(words if problem else ""), "about": "journal"}
+    return NoticeMessage("error", words if problem else "", about="journal")
 
 
-def stale_message(refused: Message) -> Message:
+def stale_message(version: int) -> wire.StaleMessage:
     """A change was not made: it was meant for a version that is no longer there."""
-    return {
-        "type": "stale",
-        "version": refused.get("version"),
-        "text": "Somebody else changed the rules just then: look at them, and do it again.",
-    }
+    words = "Somebody else changed the rules just then: look at them, and do it again."
+    return wire.StaleMessage(version, words)
 
 
-def unsaved_message(left: Iterable[Unsaved]) -> Message:
-    """Rules that killed dashboards left; `edited` in seconds since 1970."""
-    return {
-        "type": "unsaved",
-        "left": [
-            {
-                "file": unsaved.path.name,
-                "name": unsaved.rule_set.name,
-                "rules": len(unsaved.rule_set.rules),
-                "edited": unsaved.edited,
-            }
+def unsaved_message(left: Iterable[Unsaved]) -> wire.UnsavedMessage:
+    """Rules that killed dashboards left."""
+    return wire.UnsavedMessage(
+        tuple(
+            wire.UnsavedRules(
+                file=unsaved.path.name,
+                name=unsaved.rule_set.name,
+                rules=len(unsaved.rule_set.rules),
+                edited=unsaved.edited,
+            )
             for unsaved in left
-        ],
-    }
+        )
+    )
 
 
-def file_message(rule_set: RuleSet, text: str, suffix: str) -> Message:
+def file_message(rule_set: RuleSet, text: str, suffix: str) -> wire.FileMessage:
     """A file to download, named after the rule set."""
     letters = "".join(char if char.isalnum() else "-" for char in rule_set.name.lower())
     stem = "-".join(filter(None, letters.split("-"))) or "rules"
-    return {"type": "file", "name": f"{stem}.{suffix}", "text": text}
+    return wire.FileMessage(f"{stem}.{suffix}", text)

@@ -1,13 +1,18 @@
-"""The rule table page and the session, talking JSON (see static/rules/protocol.js)."""
+"""The rule table page and the session (see app/protocol/rules.py)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
+
+import msgspec
 
 from geswarm.rules import FORMATS, EditError, RuleSetError, parse_text, simplify
-from geswarm.rules.findings import shown
 
-from ..server.channel import Channel, Client, Message
+from ..protocol import rule_requests as asked
+from ..protocol.base import Request
+from ..protocol.rules import RuleFinding, RulesMessage, TextFindingsMessage
+from ..server.channel import Client
 from ..state.document import StaleError
 from ..state.insight import Insight
 from ..state.journal import Unsaved
@@ -17,27 +22,25 @@ from ..state.states import DrawnMachine
 from ..state.verdict import Answer
 from ..state.worth import WorthAnswer
 from . import rule_messages
+from .page import Page
 from .people import People, change_words, one_line
 
 LIVE_SECONDS = 0.1
-MAX_TEXT = 200_000
 
-_FOR_A_VERSION = frozenset(("edit", "undo", "redo", "set_text"))
-_CHANGES = _FOR_A_VERSION | {"load_preset", "load_text", "take_simplified", "bring_back"}
+_CHANGES = (
+    asked.ChangeRequest,
+    asked.LoadPreset,
+    asked.LoadText,
+    asked.BringBack,
+)
 _SUFFIXES = {"yaml": "yaml", "text": "rules", "json": "json"}
 
 
-class RulePage:
+class RulePage(Page):
     """Carries out what pages ask for and keeps all of them up to date."""
 
     def __init__(self, session: Session) -> None:
-        self.session = session
-        self.channel = Channel(
-            on_message=lambda client, message: session.post(
-                lambda _: self._receive(client, message)
-            ),
-            on_connect=lambda client: session.post(lambda _: self._greet(client)),
-        )
+        super().__init__(session, "rules", watched=False)
         self._shown_rules: tuple[int, Insight | None] = (0, None)
         self._since_live = 0.0
         self._shown_answer: Answer | None = None
@@ -46,25 +49,23 @@ class RulePage:
         self._shown_left = session.journal.left
         self._shown_problem = ""
         self._people = People()
-        self._carry_out: dict[str, Callable[[Client, Message], None]] = {
-            "edit": self._edit,
-            "undo": lambda *_: session.undo(),
-            "redo": lambda *_: session.redo(),
-            "load_preset": lambda _, message: session.load_preset(_text(message, "name")),
-            "load_text": lambda _, message: session.load_text(
-                _text(message, "text"), _text(message, "name")
-            ),
-            "save": self._save,
-            "set_text": lambda _, message: session.set_text(_text(message, "text")),
-            "check_text": self._check_text,
-            "simplify": self._simplify,
-            "take_simplified": self._take_simplified,
-            "key": self._press,
-            "worth_start": lambda *_: session.weigh_pieces(),
-            "worth_cancel": lambda *_: session.worth.forget(session.document.version),
-            "name": self._name,
-            "bring_back": lambda _, message: session.bring_back(self._left(message)),
-            "discard": lambda _, message: session.journal.settle(
+        self._carry_out: dict[type[Request], Callable[[Client, Any], None]] = {
+            asked.MakeEdit: lambda _, message: session.edit(message.edit),
+            asked.Undo: lambda *_: session.undo(),
+            asked.Redo: lambda *_: session.redo(),
+            asked.LoadPreset: lambda _, message: session.load_preset(message.name),
+            asked.LoadText: lambda _, message: session.load_text(message.text, message.name),
+            asked.Save: self._save,
+            asked.SetText: lambda _, message: session.set_text(message.text),
+            asked.CheckText: self._check_text,
+            asked.Simplify: self._simplify,
+            asked.TakeSimplified: self._take_simplified,
+            asked.PressKey: lambda _, message: COMMANDS[message.key](session),
+            asked.WorthStart: lambda *_: session.weigh_pieces(),
+            asked.WorthCancel: lambda *_: session.worth.forget(session.document.version),
+            asked.BeCalled: self._name,
+            asked.BringBack: lambda _, message: session.bring_back(self._left(message)),
+            asked.Discard: lambda _, message: session.journal.settle(
                 self._left(message), session.document.unsaved
             ),
         }
@@ -120,102 +121,85 @@ class RulePage:
             send(client, rule_messages.journal_message(self._shown_problem))
         self.channel.welcome(client)
 
-    def _receive(self, client: Client, message: Message) -> None:
-        kind = message.get("type")
-        if not isinstance(kind, str) or kind not in self._carry_out:
-            words = f"unknown message {shown(kind)}"
-            self.channel.send(client, rule_messages.notice_message(words))
-            return
+    def _receive(self, client: Client, message: Request) -> None:
         try:
             message = self._caught_up(message)
         except StaleError:
+            assert isinstance(message, asked.ChangeRequest)
             self.channel.send(client, self._rules())
-            self.channel.send(client, rule_messages.stale_message(message))
+            self.channel.send(client, rule_messages.stale_message(message.version))
         else:
-            self._do(client, kind, message)
+            self._do(client, message)
 
-    def _caught_up(self, message: Message) -> Message:
+    def _caught_up(self, message: Request) -> Request:
         """A message, as it is meant now if it was sent for an earlier version of the rules.
 
         Raises:
             StaleError: It must not be carried out: somebody else has changed what it is about.
         """
-        document, version, edit = self.session.document, message.get("version"), message.get("edit")
-        if message["type"] not in _FOR_A_VERSION or version == document.version:
+        document = self.session.document
+        if (
+            not isinstance(message, asked.ChangeRequest)
+            or isinstance(message, asked.TakeSimplified)  # says so by itself
+            or message.version == document.version
+        ):
             return message
-        if message["type"] == "edit" and isinstance(edit, dict):
-            return {**message, "edit": document.caught_up(edit, version)}
+        if isinstance(message, asked.MakeEdit):
+            edit = document.caught_up(message.edit, message.version)
+            return msgspec.structs.replace(message, edit=edit)
         raise StaleError
 
-    def _do(self, client: Client, kind: str, message: Message) -> None:
+    def _do(self, client: Client, message: Request) -> None:
         document = self.session.document
         version, before = document.version, document.rule_set
         try:
-            self._carry_out[kind](client, message)
+            self._carry_out[type(message)](client, message)
         except (EditError, RuleSetError) as error:
-            self.channel.send(client, rule_messages.notice_message(str(error)))
+            super()._refuse(client, str(error))
         if document.version != version:
             words = change_words(message, before, document.rule_set)
             self._people.tell_others(self.channel, client, words)
-        elif kind in _CHANGES:
+        elif isinstance(message, _CHANGES):
             self.channel.send(client, self._rules())  # the page waits for an answer
 
-    def _rules(self) -> Message:
+    def _refuse(self, client: Client, why: str) -> None:
+        super()._refuse(client, why)
+        self.channel.send(client, self._rules())  # the page may wait for an answer
+
+    def _rules(self) -> RulesMessage:
         return rule_messages.rules_message(self.session.document, self.session.insight.insight)
 
-    def _edit(self, _client: Client, message: Message) -> None:
-        edit = message.get("edit")
-        if not isinstance(edit, dict):
-            raise EditError(f"expected an edit, got {shown(edit)}")
-        self.session.edit(edit)
-
-    def _press(self, _client: Client, message: Message) -> None:
-        """A key of the arena that was pressed over the table."""
-        key = _text(message, "key")
-        if key not in COMMANDS:
-            raise EditError(f"unknown key {shown(key)}; expected one of {', '.join(COMMANDS)}")
-        COMMANDS[key](self.session)
-
-    def _save(self, client: Client, message: Message) -> None:
-        form = _text(message, "format")
-        if form not in FORMATS:
-            raise EditError(f"unknown format {shown(form)}; expected one of {', '.join(FORMATS)}")
+    def _save(self, client: Client, message: asked.Save) -> None:
         rule_set = self.session.document.rule_set
-        text = FORMATS[form](rule_set)
-        self.channel.send(client, rule_messages.file_message(rule_set, text, _SUFFIXES[form]))
+        text = FORMATS[message.format](rule_set)
+        suffix = _SUFFIXES[message.format]
+        self.channel.send(client, rule_messages.file_message(rule_set, text, suffix))
         self.session.saved()
 
-    def _name(self, client: Client, message: Message) -> None:
-        client.name = one_line(_text(message, "name")) or f"Browser {client.number}"
+    def _name(self, client: Client, message: asked.BeCalled) -> None:
+        client.name = one_line(message.name) or f"Browser {client.number}"
 
-    def _left(self, message: Message) -> Unsaved:
+    def _left(self, message: asked.FileRequest) -> Unsaved:
         """The rules of a killed dashboard that a message is about."""
         try:
-            return self.session.journal.find(_text(message, "file"))
+            return self.session.journal.find(message.file)
         except KeyError:
             raise EditError("these rules have been brought back or discarded already") from None
 
-    def _check_text(self, client: Client, message: Message) -> None:
-        findings: list[Message] = []
+    def _check_text(self, client: Client, message: asked.CheckText) -> None:
+        findings: tuple[RuleFinding, ...] = ()
         try:
-            parse_text(_text(message, "text"))
+            parse_text(message.text)
         except RuleSetError as error:
-            findings = rule_messages.findings_json(error.findings)
-        self.channel.send(client, {"type": "text_findings", "findings": findings})
+            findings = rule_messages.placed(error.findings)
+        self.channel.send(client, TextFindingsMessage(findings))
 
-    def _simplify(self, client: Client, _message: Message) -> None:
+    def _simplify(self, client: Client, _: asked.Simplify) -> None:
         simplification = simplify(self.session.document.rule_set)
         version = self.session.document.version
         self.channel.send(client, rule_messages.simplified_message(version, simplification))
 
-    def _take_simplified(self, _client: Client, message: Message) -> None:
-        if message.get("version") != self.session.document.version:
+    def _take_simplified(self, _client: Client, message: asked.TakeSimplified) -> None:
+        if message.version != self.session.document.version:
             raise EditError("the rules have changed meanwhile: simplify them again")
         self.session.simplify()
-
-
-def _text(message: Message, key: str) -> str:
-    value = message.get(key)
-    if not isinstance(value, str) or len(value) > MAX_TEXT:
-        raise EditError(f"{key} must be a text of at most {MAX_TEXT} characters")
-    return value

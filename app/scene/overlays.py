@@ -13,7 +13,7 @@ from geswarm.sim.footbot import RADIUS
 
 from .. import palette
 from ..palette import Colour
-from ..state.trace import Trace, Trails
+from ..state.trace import PathTrace, Trails
 from ..state.view import ArenaView, Shown
 from .shapes import Mesh, annulus
 
@@ -130,7 +130,7 @@ class Overlays:
             self._circles(name, radius, scenario.robots) for name, radius in radii.items()
         )
 
-    def sync_trace(self, trace: Trace, shown: Shown) -> None:
+    def sync_trace(self, trace: PathTrace, shown: Shown) -> None:
         """Trails, if a sample has come since they were drawn."""
         if not shown.trails:
             if self.handles.trails is not None:
@@ -150,7 +150,7 @@ class Overlays:
         trails.visible = True
         trails.points, trails.colors = points, colours
 
-    def sync_visits(self, trace: Trace, shown: Shown) -> None:
+    def sync_visits(self, trace: PathTrace, shown: Shown) -> None:
         """The heat map, if a sample has come since it was drawn; not for every frame."""
         image = self.handles.visits
         image.visible = shown.visits

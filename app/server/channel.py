@@ -1,24 +1,19 @@
-"""JSON messages between app and rule-table pages, over websockets on viser's event loop."""
+"""The messages of `app.protocol` between Python and pages, over websockets on viser's loop."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
 import logging
 import time
 from collections.abc import Callable
 from itertools import count
-from typing import Any, TypeAlias
 
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-Message: TypeAlias = dict[str, Any]
-
-MAX_MESSAGE_BYTES = 256 * 1024
-FRAME_TIME = "frame_time"
-"""Type of the message with which pages tell how fast their browser draws, every few seconds."""
+from ..protocol.base import FrameTime, Message, NoticeMessage, Request
+from ..protocol.reading import MessageError, Reader, encode
 
 _SILENCE = 6.0  # s for which a page may say nothing
 _LONGEST_FRAME = 3600.0
@@ -27,10 +22,6 @@ MAX_WAITING = 256
 and is then sent everything afresh."""
 
 logger = logging.getLogger(__name__)
-
-
-class MessageError(ValueError):
-    """A message that cannot be read; the text is meant for the page that sent it."""
 
 
 class Client:
@@ -77,16 +68,22 @@ class Channel:
     Callbacks run on viser's event loop: they must do nothing but post a command.
 
     Attributes:
-        on_message: Called with the sender and every JSON object that arrives.
+        reader: Of what pages may say.
+        on_message: Called with the sender and everything that it says.
+        on_refused: Called with the sender and why what it said cannot be read.
         on_connect: Called when a page connects, before its first message.
     """
 
     def __init__(
         self,
-        on_message: Callable[[Client, Message], None],
-        on_connect: Callable[[Client], None] | None = None,
+        reader: Reader[Request],
+        on_message: Callable[[Client, Request], None],
+        on_refused: Callable[[Client, str], None],
+        on_connect: Callable[[Client], None],
     ) -> None:
+        self.reader = reader
         self.on_message = on_message
+        self.on_refused = on_refused
         self.on_connect = on_connect
         self._clients: dict[int, Client] = {}
         self._numbers = count(1)
@@ -111,8 +108,8 @@ class Channel:
 
         Args:
             client: A page; one that has gone is ignored.
-            message: JSON object.
-            live: Only the newest matters: an unsent live message of the same `type` is replaced.
+            message: What it is told.
+            live: Only the newest matters: an unsent live message of the same class is replaced.
         """
         self._post((client,), message, live)
 
@@ -128,8 +125,8 @@ class Channel:
     def _post(self, clients: tuple[Client, ...], message: Message, live: bool) -> None:
         if self._loop is None:
             return
-        text = json.dumps(message, allow_nan=False, separators=(",", ":"))
-        slot = ("live", message.get("type")) if live else object()
+        text = encode(message)
+        slot = type(message) if live else object()
 
         def put() -> None:
             for client in clients:
@@ -145,62 +142,39 @@ class Channel:
         self._clients[client.number] = client
         delivery = asyncio.create_task(client.deliver())
         try:
-            if self.on_connect is not None:
-                self._call(client, self.on_connect, client)
+            self._call(client, self.on_connect, client)
             async for raw in connection:
-                try:
-                    message = parse_message(raw)
-                except MessageError as error:
-                    self.send(client, _error(str(error)))
-                else:
-                    if message.get("type") == FRAME_TIME:
-                        client.frame = frame_told(message)
-                    else:
-                        self._call(client, self.on_message, client, message)
+                self.hear(client, raw)
         except ConnectionClosed:
             pass
         finally:
             del self._clients[client.number]
             delivery.cancel()
 
+    def hear(self, client: Client, raw: str | bytes) -> None:
+        """Take what a page said; on viser's event loop."""
+        try:
+            message = self.reader.read(raw)
+        except MessageError as error:
+            self._call(client, self.on_refused, client, str(error))
+            return
+        if isinstance(message, FrameTime):
+            client.frame = frame_told(message)
+        else:
+            self._call(client, self.on_message, client, message)
+
     def _call(self, client: Client, callback: Callable[..., None], *arguments: object) -> None:
         """Call back; a fault of ours is logged and must not end the page's connection."""
         try:
             callback(*arguments)
         except Exception:
-            logger.exception("a message of a rule-table page could not be handled")
-            self.send(client, _error("this failed inside the app; its terminal shows why"))
+            logger.exception("a message of a page could not be handled")
+            words = "this failed inside the app; its terminal shows why"
+            self.send(client, NoticeMessage("error", words))
 
 
-def frame_told(message: Message) -> tuple[float, float] | None:
+def frame_told(message: FrameTime) -> tuple[float, float] | None:
     """What a page says of the frames of its browser, as `Client.frame` holds it."""
-    told = message.get("milliseconds")
-    if isinstance(told, bool) or not isinstance(told, int | float):
+    if message.milliseconds is None:
         return None
-    return min(max(told / 1000.0, 0.0), _LONGEST_FRAME), time.monotonic()
-
-
-def parse_message(raw: str | bytes) -> Message:
-    """The JSON object in a websocket message.
-
-    Raises:
-        MessageError: Too long, not text, not JSON, not an object, or with numbers or characters
-            that JSON text in UTF-8 cannot hold.
-    """
-    size = len(raw if isinstance(raw, bytes) else raw.encode())
-    if size > MAX_MESSAGE_BYTES:
-        raise MessageError(f"message of {size} bytes; expected at most {MAX_MESSAGE_BYTES}")
-    if isinstance(raw, bytes):
-        raise MessageError("expected a text message with a JSON object, got a binary message")
-    try:
-        message = json.loads(raw)
-        json.dumps(message, allow_nan=False, ensure_ascii=False).encode()
-    except (ValueError, RecursionError) as error:
-        raise MessageError(f"expected a JSON object; this is not readable: {error}") from error
-    if not isinstance(message, dict):
-        raise MessageError(f"expected a JSON object, got {raw[:40]}")
-    return message
-
-
-def _error(text: str) -> Message:
-    return {"type": "notice", "level": "error", "text": text}
+    return min(max(message.milliseconds / 1000.0, 0.0), _LONGEST_FRAME), time.monotonic()

@@ -28,8 +28,9 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from ..protocol.reading import MAX_MESSAGE_BYTES
 from .access import Access
-from .channel import MAX_MESSAGE_BYTES, Channel
+from .channel import Channel
 from .listening import ServerError, free_port
 from .responses import CONTENT_TYPES, PROTECTION, plain, refused, response
 from .viewer_page import served

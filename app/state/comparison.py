@@ -30,7 +30,7 @@ class ChoiceError(ValueError):
 
 
 @dataclass(frozen=True)
-class Choice:
+class ComparisonChoice:
     """What is to be compared, as it was typed; see `findings`.
 
     Attributes:
@@ -61,7 +61,7 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class Question:
+class ComparisonQuestion:
     """A comparison to be made.
 
     Attributes:
@@ -98,7 +98,7 @@ class Progress:
     error: str = ""
 
 
-class Comparison:
+class RuleSetComparison:
     """What is chosen, and the answer; the loop owns it, except for `progress`.
 
     Attributes:
@@ -109,13 +109,13 @@ class Comparison:
 
     def __init__(self, workers: int, folder: Path = RUNS) -> None:
         self.workers = workers
-        self.choice = Choice()
+        self.choice = ComparisonChoice()
         self.progress: Progress | None = None
         self._folder = folder
         self._presets = {load_preset(name).name: name for name in preset_names()}
         self._files: dict[str, RuleSet] = {}
         self._kept: dict[str, Path] = {}
-        self._newest: Newest[Question] = Newest("comparison", self._answer)
+        self._newest: Newest[ComparisonQuestion] = Newest("comparison", self._answer)
 
     def rules_offered(self) -> list[str]:
         """Names of all rule sets that there are: table, presets, files, the best of the runs."""
@@ -193,7 +193,7 @@ class Comparison:
             for name in choice.scenarios
         )
         against = choice.against if choice.against in rule_sets else choice.rules[0]
-        question = Question(rule_sets, scenarios, against, choice.runs, choice.seed)
+        question = ComparisonQuestion(rule_sets, scenarios, against, choice.runs, choice.seed)
         self.progress = _progress(question, {}, 0.0)
         self._newest.ask(question)
 
@@ -214,7 +214,7 @@ class Comparison:
             return load_preset(self._presets[name])
         return self._files[name] if name in self._files else load_rule_set(str(self._kept[name]))
 
-    def _answer(self, question: Question, stop: Stop) -> None:
+    def _answer(self, question: ComparisonQuestion, stop: Stop) -> None:
         """Case after case, so that the first are seen soon and the arena has its turn."""
         cases = [Case(name, where) for where in question.scenarios for name in question.rule_sets]
         total = sum(case.scenario.robots for case in cases)
@@ -239,7 +239,7 @@ class Comparison:
             self.progress = replace(progress, busy=False)
 
 
-def _progress(question: Question, samples: Samples, share: float) -> Progress:
+def _progress(question: ComparisonQuestion, samples: Samples, share: float) -> Progress:
     """What is known when these samples are in."""
     compared = Compared(
         question.rule_sets, dict(samples), question.against, question.runs, question.seed

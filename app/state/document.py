@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, TypeAlias
+from typing import TypeAlias
+
+import msgspec
 
 from geswarm.rules import Rule, RuleSet, apply_edit
+
+from ..protocol.edits import AnyEdit, MoveRule, PlaceEdit, RuleEdit
 
 MAX_HISTORY = 1000
 MAX_LATE = 100
@@ -61,21 +65,21 @@ class RuleDocument:
         now = bare_rules(self.rule_set)
         return next((past for past, _ in reversed(self._past) if bare_rules(past) != now), None)
 
-    def edit(self, edit: dict[str, Any]) -> None:
-        """Make one edit (see `geswarm.rules.edits`).
+    def edit(self, edit: AnyEdit) -> None:
+        """Make one edit.
 
         Raises:
             EditError: It cannot be made; the document is untouched.
         """
-        self.replace(apply_edit(self.rule_set, edit))
+        self.replace(apply_edit(self.rule_set, msgspec.to_builtins(edit)))
 
-    def caught_up(self, edit: dict[str, Any], version: object) -> dict[str, Any]:
+    def caught_up(self, edit: AnyEdit, version: int) -> AnyEdit:
         """An edit that was meant for an earlier version, as it is meant for this one.
 
         Raises:
             StaleError: Its rule has gone or been changed meanwhile, or the version is unknown.
         """
-        late = self.version - version if isinstance(version, int) else -1
+        late = self.version - version
         if not 0 <= late < len(self._recent):
             raise StaleError
         return _moved(edit, self._recent[-1 - late].rules, self.rule_set.rules)
@@ -114,22 +118,22 @@ class RuleDocument:
         self._recent.append(rule_set)
 
 
-def _moved(edit: dict[str, Any], before: Sequence[Rule], now: Sequence[Rule]) -> dict[str, Any]:
+def _moved(edit: AnyEdit, before: Sequence[Rule], now: Sequence[Rule]) -> AnyEdit:
     """The same edit, with the places of its rules as they are now."""
-    moved = dict(edit)
-    key = "at" if edit.get("do") in ("add_rule", "paste_rules") else "rule"
-    if key in edit:
-        moved[key] = _place(edit[key], before, now)
-    if isinstance(edit.get("to"), int):
-        moved["to"] = min(edit["to"], len(now) - 1)
-    return moved
+    if isinstance(edit, MoveRule):
+        edit = msgspec.structs.replace(edit, to=min(edit.to, len(now) - 1))
+    if isinstance(edit, PlaceEdit):
+        return msgspec.structs.replace(edit, at=_place(edit.at, before, now))
+    if isinstance(edit, RuleEdit):
+        return msgspec.structs.replace(edit, rule=_place(edit.rule, before, now))
+    return edit
 
 
-def _place(place: object, before: Sequence[Rule], now: Sequence[Rule]) -> int:
+def _place(place: int, before: Sequence[Rule], now: Sequence[Rule]) -> int:
     """Where a rule is now; behind the last one stays behind the last one."""
     if place == len(before):
         return len(now)
-    if not isinstance(place, int) or not 0 <= place < len(before):
+    if not 0 <= place < len(before):
         raise StaleError
     same = [at for at, rule in enumerate(now) if rule == before[place]]
     if not same:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from geswarm.sim import Scenario
 
 from .rival import Rival
-from .swarm import Swarm
-from .trace import Trace
+from .swarm import ShownSwarm
+from .trace import PathTrace
 
 _MOST_RUNS, _MOST_ROBOTS = 8, 200_000  # that are kept, in all runs together
 
@@ -28,9 +28,9 @@ class ArenaRun:
 
     loaded: Scenario
     scenario: Scenario
-    swarm: Swarm
+    swarm: ShownSwarm
     rival: Rival | None
-    trace: Trace
+    trace: PathTrace
 
     @property
     def time(self) -> float:

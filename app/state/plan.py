@@ -19,12 +19,12 @@ _LONGEST_VALUE = 40
 _SIZES = ("generations", "population", "evaluations")
 
 
-class PlanError(ValueError):
+class RunPlanError(ValueError):
     """What was asked of a plan, or the plan itself, cannot be; says why."""
 
 
 @dataclass(frozen=True)
-class Plan:
+class RunPlan:
     """What the next run will be; values are as they were typed, right or wrong.
 
     Attributes:
@@ -41,39 +41,39 @@ class Plan:
     frozen: frozenset[Rule] = frozenset()
     from_table: bool = False
 
-    def with_preset(self, name: str) -> Plan:
+    def with_preset(self, name: str) -> RunPlan:
         """With all values of a preset.
 
         Raises:
-            PlanError: There is none of that name.
+            RunPlanError: There is none of that name.
         """
         try:
             return replace(self, preset=name, values=asdict(Settings.preset(name)))
         except SettingsError as error:
-            raise PlanError(str(error)) from error
+            raise RunPlanError(str(error)) from error
 
-    def with_value(self, name: str, value: Any) -> Plan:
+    def with_value(self, name: str, value: Any) -> RunPlan:
         """With another value of a setting, of the `seed` or of `from_table`; see `findings`.
 
         Raises:
-            PlanError: There is no such setting, or it is no value at all.
+            RunPlanError: There is no such setting, or it is no value at all.
         """
         if not isinstance(value, int | float | str) or len(str(value)) > _LONGEST_VALUE:
-            raise PlanError(f"{name}: expected a number, a word, true or false")
+            raise RunPlanError(f"{name}: expected a number, a word, true or false")
         if name == "seed":
             return replace(self, seed=value)
         if name == "from_table":
             return replace(self, from_table=value is True)
         if name not in self.values:
-            raise PlanError(f"{name}: expected a setting, the seed or from_table")
+            raise RunPlanError(f"{name}: expected a setting, the seed or from_table")
         return replace(self, values={**self.values, name: value})
 
-    def freezing(self, rule: Rule, wanted: bool) -> Plan:
+    def freezing(self, rule: Rule, wanted: bool) -> RunPlan:
         """With a rule frozen, or no longer."""
         (bare,) = bare_rules(RuleSet((rule,)))
         return replace(self, frozen=self.frozen | {bare} if wanted else self.frozen - {bare})
 
-    def following(self, before: RuleSet, after: RuleSet) -> Plan:
+    def following(self, before: RuleSet, after: RuleSet) -> RunPlan:
         """With the same rules frozen after the table was edited."""
         old, new = bare_rules(before), bare_rules(after)
         kept = self.frozen & set(new)
@@ -126,10 +126,10 @@ class Plan:
         """The configuration of the run.
 
         Raises:
-            PlanError: With all findings.
+            RunPlanError: With all findings.
         """
         if found := self.findings(rule_set):
-            raise PlanError("\n".join(f"{name}: {text}" for name, text in found.items()))
+            raise RunPlanError("\n".join(f"{name}: {text}" for name, text in found.items()))
         settings = Settings(**self.values)
         return RunConfig(scenario, settings, self.seed, self.frozen_rules(rule_set))
 

@@ -9,7 +9,7 @@ from geswarm.rules import RuleSet, load_preset, preset_names
 
 from .document import RuleDocument
 from .runs import Runs
-from .swarm import Swarm
+from .swarm import ShownSwarm
 
 BEFORE = "before the last edit"
 CHOSEN = "individual clicked"
@@ -25,7 +25,7 @@ class Rival:
     """
 
     name: str
-    swarm: Swarm
+    swarm: ShownSwarm
 
 
 def best_of(run: str) -> str:

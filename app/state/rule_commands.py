@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
 
 from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
 
+from ..protocol.edits import AnyEdit
 from .document import RuleDocument
 from .journal import Journal, Unsaved
 
@@ -26,7 +26,7 @@ class RuleCommands(ABC):
     def _follow_document(self) -> None:
         """Have all else follow the rules as they are now."""
 
-    def edit(self, edit: dict[str, Any]) -> None:
+    def edit(self, edit: AnyEdit) -> None:
         """Change the rules; the swarm follows them from its next step on.
 
         Raises:

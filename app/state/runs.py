@@ -15,7 +15,7 @@ from ..run_directory import RUNS, new_run_directory
 from .background import Lookout, Stop
 from .evolution import EvolutionThread, evaluate_references
 from .look import Chosen, Lens, Look
-from .plan import Plan, PlanError
+from .plan import RunPlan, RunPlanError
 from .run_folder import RunError, RunFolder, RunSummary
 
 MOST_COMPARED = 6
@@ -42,7 +42,7 @@ class Runs:
 
     def __init__(self, evolution: EvolutionThread, rule_set: RuleSet, folder: Path = RUNS) -> None:
         self.evolution = evolution
-        self.plan = Plan()
+        self.plan = RunPlan()
         self.kept: tuple[RunSummary, ...] = ()
         self.compared: dict[str, int] = {}
         self.look: Look | None = None
@@ -131,17 +131,17 @@ class Runs:
         """Have the next run leave a rule of the table as it is, or not.
 
         Raises:
-            PlanError: There is no such rule.
+            RunPlanError: There is no such rule.
         """
         if not 0 <= rule < len(self._rule_set.rules):
-            raise PlanError(f"there is no rule {rule + 1} to freeze")
+            raise RunPlanError(f"there is no rule {rule + 1} to freeze")
         self.plan = self.plan.freezing(self._rule_set.rules[rule], wanted)
 
     def start(self, scenario: Scenario) -> None:
         """Begin the planned run in a new directory; any run under way is stopped.
 
         Raises:
-            PlanError: The plan has findings.
+            RunPlanError: The plan has findings.
         """
         config = self.plan.config(scenario, self._rule_set)
         first = self.plan.first(self._rule_set)

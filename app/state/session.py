@@ -17,7 +17,7 @@ from geswarm.rules import RuleSet
 from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on
 
 from .campaigns import Campaigns
-from .comparison import Comparison
+from .comparison import RuleSetComparison
 from .document import RuleDocument, bare_rules
 from .evolution import EvolutionThread
 from .insight import InsightFinder
@@ -28,9 +28,9 @@ from .rival import BEFORE, Rival, rivals_offered
 from .rule_commands import RuleCommands
 from .runs import Runs
 from .states import MachineDrawer
-from .swarm import Swarm
-from .trace import SAMPLE_STEPS, Trace
-from .verdict import Question, Verdict
+from .swarm import ShownSwarm
+from .trace import SAMPLE_STEPS, PathTrace
+from .verdict import Judge, VerdictQuestion
 from .view import ArenaView, Kind, Shown
 from .worth import WorthOfPieces, WorthQuestion
 
@@ -92,15 +92,15 @@ class Session(RuleCommands):
         self.world = World(scenario, rule_set, seed)
         self.rival: Rival | None = None
         self.rival_problem = ""
-        self.trace = Trace(scenario, self.world.state)
+        self.trace = PathTrace(scenario, self.world.state)
         self.past = PastRuns()
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
         self.runs = Runs(evolution, rule_set)
-        self.comparison = Comparison(evolution.workers)
+        self.comparison = RuleSetComparison(evolution.workers)
         self.campaigns = Campaigns(evolution)
         self.scenario_version = 1
-        self.verdict = Verdict(evolution.workers)
+        self.verdict = Judge(evolution.workers)
         self.worth = WorthOfPieces(evolution.workers)
         self.insight = InsightFinder()
         self.machine = MachineDrawer()
@@ -108,7 +108,7 @@ class Session(RuleCommands):
         self.selected: int | None = None
         self.following = False
         self.held: Held | None = None
-        self._swarm = Swarm(self.world)
+        self._swarm = ShownSwarm(self.world)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.insight.look_into(self.document.version, rule_set)
         self.machine.draw(rule_set)
@@ -142,7 +142,7 @@ class Session(RuleCommands):
         return self.rival.swarm.view(self.playback.fraction) if self.rival else None
 
     @property
-    def _swarms(self) -> tuple[Swarm, ...]:
+    def _swarms(self) -> tuple[ShownSwarm, ...]:
         return (self._swarm, self.rival.swarm) if self.rival else (self._swarm,)
 
     def _advance(self, steps: float, budget: float) -> None:
@@ -290,7 +290,7 @@ class Session(RuleCommands):
             self.rival_problem = f"{name!r} is no longer there to compare with"
             return
         self.past.keep(self._run())
-        self.rival = Rival(name, Swarm(World(self.scenario, rule_set, self.world.seed)))
+        self.rival = Rival(name, ShownSwarm(World(self.scenario, rule_set, self.world.seed)))
         self._begin(None)
 
     def _rules_of(self, rival: Rival) -> RuleSet:
@@ -354,7 +354,7 @@ class Session(RuleCommands):
     def _judge(self) -> None:
         document = self.document
         self.verdict.ask(
-            Question(document.version, document.rule_set, document.before, self.scenario)
+            VerdictQuestion(document.version, document.rule_set, document.before, self.scenario)
         )
         self.worth.forget(document.version)
 

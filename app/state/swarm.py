@@ -7,7 +7,7 @@ from geswarm.sim import World
 from .view import ArenaView, Kind, between
 
 
-class Swarm:
+class ShownSwarm:
     """Shows a world that makes whole steps as if it moved smoothly.
 
     Attributes:

@@ -37,7 +37,7 @@ class Trails:
     age: npt.NDArray[np.float64]
 
 
-class Trace:
+class PathTrace:
     """Samples of where the robots are, taken every `SAMPLE_STEPS` control steps.
 
     Attributes:

@@ -27,7 +27,7 @@ _CACHED_SAMPLES = 500
 
 
 @dataclass(frozen=True)
-class Question:
+class VerdictQuestion:
     """What a verdict is wanted on.
 
     Attributes:
@@ -69,7 +69,7 @@ class Answer:
         busy: More runs are to come.
     """
 
-    question: Question
+    question: VerdictQuestion
     samples: tuple[Sample, ...] = ()
     comparisons: dict[str, PairedDifference] = field(default_factory=dict)
     busy: bool = True
@@ -86,7 +86,7 @@ def compared(samples: tuple[Sample, ...]) -> dict[str, PairedDifference]:
     return found
 
 
-class Verdict:
+class Judge:
     """Answers the newest question, on a thread of its own.
 
     Attributes:
@@ -100,7 +100,7 @@ class Verdict:
         self._samples: OrderedDict[bytes, npt.NDArray[np.int64]] = OrderedDict()
         self._newest = Newest("verdict", self._answer)
 
-    def ask(self, question: Question) -> None:
+    def ask(self, question: VerdictQuestion) -> None:
         """Begin with a question at once; what was under way is dropped."""
         self._newest.ask(question)
 
@@ -108,7 +108,7 @@ class Verdict:
         """End the thread."""
         self._newest.close()
 
-    def _answer(self, question: Question, stop: Stop) -> None:
+    def _answer(self, question: VerdictQuestion, stop: Stop) -> None:
         self.answer = Answer(question)
         try:
             for runs in (_FIRST_RUNS, RUNS):
@@ -117,12 +117,12 @@ class Verdict:
             return
         self._publish(question, busy=False)
 
-    def _run_all(self, question: Question, runs: int, stop: Stop) -> None:
+    def _run_all(self, question: VerdictQuestion, runs: int, stop: Stop) -> None:
         for _, _, rule_set in contestants(question):
             self._run(rule_set, question.scenario, runs, stop)
             self._publish(question, busy=True)
 
-    def _publish(self, question: Question, busy: bool) -> None:
+    def _publish(self, question: VerdictQuestion, busy: bool) -> None:
         samples = self._known(question)
         self.answer = Answer(question, samples, compared(samples), busy)
 
@@ -138,7 +138,7 @@ class Verdict:
         while len(self._samples) > _CACHED_SAMPLES:
             self._samples.popitem(last=False)
 
-    def _known(self, question: Question) -> tuple[Sample, ...]:
+    def _known(self, question: VerdictQuestion) -> tuple[Sample, ...]:
         """The samples so far; the rules now always come first, even while they have no run."""
         nothing = np.zeros(0, dtype=np.int64)
         return tuple(
@@ -147,7 +147,7 @@ class Verdict:
         )
 
 
-def contestants(question: Question) -> list[tuple[str, str, RuleSet]]:
+def contestants(question: VerdictQuestion) -> list[tuple[str, str, RuleSet]]:
     """(role, name, rules) of everything that a verdict compares."""
     found = [("current", "these rules", question.rule_set)]
     if question.before is not None:

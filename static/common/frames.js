@@ -1,5 +1,7 @@
 /** How fast this browser draws, told to Python: the arena beside a page is drawn in turn with it. */
 
+import { request } from "./protocol.js";
+
 const EVERY = 2000; // ms
 
 /** @param {import("./socket.js").Socket} socket */
@@ -16,7 +18,7 @@ export function tellFrames(socket) {
     const before = seen;
     seen = !document.hidden && innerWidth > 0;
     const each = (performance.now() - since) / Math.max(frames, 1);
-    if (before || seen) socket.send({ type: "frame_time", milliseconds: before && seen ? each : null });
+    if (before || seen) socket.send(request.frameTime(before && seen ? each : null));
     begin();
   };
   const count = () => {

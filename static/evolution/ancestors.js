@@ -2,6 +2,7 @@
 
 import { h, identify, svg } from "../common/dom.js";
 import { axis, decimal } from "../common/figures.js";
+import { request } from "./protocol.js";
 import { Rows } from "./rows.js";
 
 const HEIGHT = 176;
@@ -19,7 +20,7 @@ export class Ancestors {
   constructor(root, send) {
     this.picture = svg("svg", { class: "family", height: HEIGHT, role: "img" });
     identify(this.picture, "family", "Ancestors of the best by generation and fitness");
-    this.rows = new Rows("ancestor", COLUMNS, ([generation, key]) => send({ type: "choose", generation, key }));
+    this.rows = new Rows("ancestor", COLUMNS, ([generation, key]) => send(request.choose(generation, key)));
     this.words = h("p", { class: "note" });
     this.filled = h("div", { hidden: true }, this.words, this.picture, this.rows.node);
     this.empty = h("p", { class: "note" }, "There is no best individual yet: start an evolution, or open one of the runs.");

@@ -2,6 +2,7 @@
 
 import { h, iconButton, identify } from "../common/dom.js";
 import { decimal } from "../common/figures.js";
+import { request } from "./protocol.js";
 
 export class ChosenRules {
   /**
@@ -12,12 +13,12 @@ export class ChosenRules {
     this.root = root;
     this.title = h("h2", { "data-testid": "chosen-title" });
     this.from = h("p", { class: "note" });
-    const close = iconButton("remove", "Close", () => send({ type: "forget" }));
+    const close = iconButton("remove", "Close", () => send(request.forget()));
     identify(close, "chosen-close");
-    const onclick = () => send({ type: "load" });
+    const onclick = () => send(request.load());
     const load = h("button", { type: "button", class: "button first", onclick }, "Load into the table");
     identify(load, "load");
-    const beside = () => send({ type: "compare_with" });
+    const beside = () => send(request.compareWith());
     const title = "Run it in the arena beside the rules of the table, same seed, same clock";
     const compare = h("button", { type: "button", class: "button", title, onclick: beside }, "Compare in the arena");
     identify(compare, "compare-with");

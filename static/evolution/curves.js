@@ -25,7 +25,7 @@ export class Curves {
     this.#draw();
   }
 
-  /** @param {import("./protocol.js").ComparedMessage} message */
+  /** @param {import("./protocol.js").ComparedRunsMessage} message */
   compare({ runs }) {
     this.#others = runs;
     this.#draw();

@@ -1,6 +1,7 @@
 /** The next run: all its parameters, and the rules that must not change. */
 
 import { h, identify } from "../common/dom.js";
+import { request } from "./protocol.js";
 import { insteadOf } from "./question.js";
 
 /** @param {string} name A setting. @returns {string} The same to read. */
@@ -73,14 +74,14 @@ export class Form {
   }
 
   #preset(name) {
-    const onclick = () => this.send({ type: "preset", name });
+    const onclick = () => this.send(request.preset(name));
     const button = h("button", { type: "button", class: "segment", "data-name": name, onclick }, name);
     identify(button, `preset-${name}`);
     return button;
   }
 
   #control(field) {
-    const control = new Control(field, (value) => this.send({ type: "plan", name: field.name, value }));
+    const control = new Control(field, (value) => this.send(request.plan(field.name, value)));
     this.#controls.set(field.name, control);
     return control;
   }
@@ -98,7 +99,7 @@ export class Form {
   }
 
   #rule(i) {
-    const onchange = (event) => this.send({ type: "freeze", rule: i, on: event.target.checked });
+    const onchange = (event) => this.send(request.freeze(i, event.target.checked));
     const box = h("input", { type: "checkbox", onchange });
     identify(box, `freeze-${i + 1}`);
     const number = h("span", { class: "rule-number" }, h("i", {}, "R"), h("sub", {}, String(i + 1)));
@@ -106,7 +107,7 @@ export class Form {
   }
 
   #start() {
-    insteadOf(this.status, (instead) => this.send({ type: "start", instead }) && this.started());
+    insteadOf(this.status, (instead) => this.send(request.start(instead)) && this.started());
   }
 }
 
@@ -115,7 +116,7 @@ const MOVED = "Frozen rules come before the evolved ones, so these would move to
 /** One parameter: its name, its value, its explanation and what is wrong with it. */
 class Control {
   /**
-   * @param {import("./protocol.js").Field} field
+   * @param {import("./protocol.js").SettingField} field
    * @param {(value: number | string | boolean) => void} changed
    */
   constructor(field, changed) {

@@ -3,6 +3,7 @@
 import { h, icon, identify } from "../common/dom.js";
 import { decimal } from "../common/figures.js";
 import { readable } from "./form.js";
+import { request } from "./protocol.js";
 
 const WORDS = {
   IDLE: "not started",
@@ -13,7 +14,7 @@ const WORDS = {
   FAILED: "failed",
 };
 
-/** @param {import("./protocol.js").Preset} preset @returns {string} "preset modern, changed: mutation". */
+/** @param {import("./protocol.js").NearestPreset} preset @returns {string} "preset modern, changed: mutation". */
 export function presetWords({ name, changed }) {
   return changed.length ? `preset ${name}, changed: ${changed.map(readable).join(", ")}` : `preset ${name}`;
 }
@@ -31,12 +32,12 @@ export class Header {
       identify(node, id);
       return node;
     };
-    this.pause = button("pause", "Pause", () => send({ type: this.status.phase === "PAUSED" ? "go_on" : "pause" }));
-    this.stop = button("stop", "Stop", () => send({ type: "stop" }));
+    this.pause = button("pause", "Pause", () => send(this.status.phase === "PAUSED" ? request.goOn() : request.pause()));
+    this.stop = button("stop", "Stop", () => send(request.stop()));
     this.resume = button("resume", "Resume", () => resume(this.status.shown, this.until.value));
     this.until = new Until();
-    this.best = button("load-best", "Load the best", () => send({ type: "load_best" }), icon("save"));
-    this.back = button("back", "Back to the present run", () => send({ type: "open", name: this.status.run }));
+    this.best = button("load-best", "Load the best", () => send(request.loadBest()), icon("save"));
+    this.back = button("back", "Back to the present run", () => send(request.open(this.status.run)));
     this.name = h("span", { class: "name", "data-testid": "run" });
     this.about = h("span", { class: "origin", "data-testid": "about" });
     const actions = h("div", { class: "actions" }, this.pause, this.stop, this.until.node, this.resume, this.best);
@@ -48,7 +49,7 @@ export class Header {
     root.append(h("div", { class: "title-bar" }, title, actions), this.progress, this.line, this.remarks, this.error, this.back, ...below);
   }
 
-  /** @param {import("./protocol.js").StatusMessage} status */
+  /** @param {import("./protocol.js").EvolutionMessage} status */
   update(status) {
     this.status = status;
     const { about, active, run, shown } = status;

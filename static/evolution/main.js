@@ -1,8 +1,6 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
-import { tellFrames } from "../common/frames.js";
-import { Notices } from "../common/notices.js";
-import { Socket, socketAddress } from "../common/socket.js";
+import { Page, element } from "../common/page.js";
 import { Tabs } from "../common/tabs.js";
 import { Ancestors } from "./ancestors.js";
 import { ChosenRules } from "./chosen.js";
@@ -10,27 +8,18 @@ import { Curves } from "./curves.js";
 import { Form } from "./form.js";
 import { Header } from "./header.js";
 import { Population } from "./population.js";
+import { request } from "./protocol.js";
 import { insteadOf } from "./question.js";
 import { Runs } from "./runs.js";
 import { Steer } from "./steer.js";
 
-const IN_VIEW = 1000; // ms between two words that this page is in view
-
-const element = (id) => document.getElementById(id);
-const notices = new Notices(element("notices"));
+const page = new Page();
+const { ask: send, notices } = page;
 const STEER = 1;
 let status = null;
 
-/** With what is asked for, errors about what was asked for before are of no interest. */
-function send(message) {
-  notices.forget();
-  const sent = socket.send(message);
-  if (!sent) notices.stress();
-  return sent;
-}
-
 const resume = (name, generations = null) =>
-  insteadOf(status, (instead) => send({ type: "resume", name, generations, instead }));
+  insteadOf(status, (instead) => send(request.resume(name, generations, instead)));
 const curves = new Curves();
 const form = new Form(element("plan"), send, () => tabs.show(STEER));
 const steer = new Steer(element("steer"), send);
@@ -82,20 +71,10 @@ const handlers = {
   notice: ({ level, text }) => notices.show(level, text),
 };
 
-const socket = new Socket(socketAddress(), {
-  opened: () => notices.connected(true),
-  closed: () => notices.connected(false),
-  refused: (why) => notices.refused(why),
-  message: (message) => handlers[message.type]?.(message),
-});
-tellFrames(socket);
+page.connect(handlers);
+page.tellInView();
 
 /** The rules of an individual stand beside those tabs where one can be clicked. */
 function inTab(id) {
   document.body.dataset.tab = id;
 }
-
-/** A page in a tab of the dashboard that is not in view has no size. */
-setInterval(() => {
-  if (!document.hidden && innerWidth > 0) socket.send({ type: "watch" });
-}, IN_VIEW);

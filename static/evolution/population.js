@@ -2,6 +2,7 @@
 
 import { h, identify, svg } from "../common/dom.js";
 import { decimal } from "../common/figures.js";
+import { request } from "./protocol.js";
 import { Rows } from "./rows.js";
 
 const HEIGHT = 34; // px of a histogram
@@ -19,7 +20,7 @@ export class Population {
     this.tiles = h("div", { class: "tiles" });
     this.shares = h("div", { class: "shares" });
     identify(this.shares, "behaviours");
-    this.rows = new Rows("individual", COLUMNS, ([generation, key]) => send({ type: "choose", generation, key }));
+    this.rows = new Rows("individual", COLUMNS, ([generation, key]) => send(request.choose(generation, key)));
     this.note = h("p", { class: "note" });
     this.filled = h("div", { hidden: true }, this.tiles, this.shares, this.rows.node, this.note);
     this.empty = h("p", { class: "note" }, "There is no population yet: start an evolution, or open one of the runs.");

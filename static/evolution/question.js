@@ -28,7 +28,7 @@ export function ask(title, text, yes, act) {
 /**
  * Begin another run, after a question if one is under way.
  *
- * @param {?import("./protocol.js").StatusMessage} status
+ * @param {?import("./protocol.js").EvolutionMessage} status
  * @param {(instead: boolean) => void} act
  */
 export function insteadOf(status, act) {

@@ -4,6 +4,7 @@ import { COLOURS } from "../common/chart.js";
 import { h, icon, iconButton, identify } from "../common/dom.js";
 import { decimal } from "../common/figures.js";
 import { presetWords } from "./header.js";
+import { request } from "./protocol.js";
 import { ask } from "./question.js";
 
 const STATES = { RUNNING: "running", PAUSED: "paused", STOPPED: "not finished", FINISHED: "finished", FAILED: "cannot be read" };
@@ -45,7 +46,7 @@ export class Runs {
     this.#markShown();
   }
 
-  /** @param {import("./protocol.js").StatusMessage} message */
+  /** @param {import("./protocol.js").EvolutionMessage} message */
   showStatus({ shown }) {
     this.#shown = shown;
     this.#markShown();
@@ -58,21 +59,21 @@ export class Runs {
 
 class RunItem {
   constructor(name, send, resume) {
-    this.box = h("input", { type: "checkbox", onchange: () => send({ type: "compare", name, on: this.box.checked }) });
-    this.open = h("button", { type: "button", class: "run-name", title: "Look at this run", onclick: () => send({ type: "open", name }) }, name);
+    this.box = h("input", { type: "checkbox", onchange: () => send(request.compare(name, this.box.checked)) });
+    this.open = h("button", { type: "button", class: "run-name", title: "Look at this run", onclick: () => send(request.open(name)) }, name);
     this.details = h("div", { class: "run-details" });
     this.best = h("b", { class: "run-best", title: "Best so far, objects collected" });
     this.state = h("span", { class: "run-state" });
     this.go = h("button", { type: "button", class: "quiet", onclick: () => resume(name) }, "Resume");
     const text = `The directory ${name} with its history and best rules is removed for good.`;
-    const question = () => ask("Delete this run?", text, "Delete", () => send({ type: "delete", name }));
+    const question = () => ask("Delete this run?", text, "Delete", () => send(request.delete(name)));
     this.remove = iconButton("trash", `Delete ${name}`, question);
     const middle = h("div", { class: "run-middle" }, this.open, this.details);
     this.node = h("li", { class: "run" }, this.box, middle, this.best, this.state, this.go, this.remove);
   }
 
   /**
-   * @param {import("./protocol.js").Run} run
+   * @param {import("./protocol.js").KeptRun} run
    * @param {boolean} full No more can be compared.
    * @param {number} i
    */

@@ -2,6 +2,7 @@
 
 import { h, identify } from "../common/dom.js";
 import { readable } from "./form.js";
+import { request } from "./protocol.js";
 
 const PROBABILITY = { min: 0, max: 1, step: 0.01 };
 const RANGES = {
@@ -20,7 +21,7 @@ export class Steer {
     this.send = send;
     this.knobs = h("div", { class: "knobs" });
     this.idle = h("p", { class: "note" }, "No evolution is running: start one, or resume one of the runs.");
-    const onclick = () => send({ type: "inject" });
+    const onclick = () => send(request.inject());
     this.inject = h("button", { type: "button", class: "button", onclick }, "Inject the edited rules");
     identify(this.inject, "inject");
     const words = "The rules of the table enter the population with the next generation, in place of the worst.";
@@ -38,7 +39,7 @@ export class Steer {
     this.knobs.replaceChildren(...[...this.#knobs.values()].map(({ node }) => node));
   }
 
-  /** @param {import("./protocol.js").StatusMessage} message */
+  /** @param {import("./protocol.js").EvolutionMessage} message */
   update({ active, settings, idle }) {
     const ready = Object.keys(settings).length > 0; // a run has been opened
     this.idle.hidden = active;
@@ -75,7 +76,7 @@ export class Steer {
       });
       from.addEventListener("change", () => {
         delete from.dataset.moving;
-        this.send({ type: "steer", name, value: Number(from.value) });
+        this.send(request.steer(name, Number(from.value)));
       });
       from.addEventListener("blur", () => delete from.dataset.moving);
     };

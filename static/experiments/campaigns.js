@@ -4,6 +4,7 @@ import { h, icon, identify } from "../common/dom.js";
 import { reportAddress } from "./campaign.js";
 import { duration } from "./duration.js";
 import { NumberField } from "./field.js";
+import { request } from "./protocol.js";
 
 const FIELDS = { runs: "Evolutions", generations: "Generations", evaluations: "Runs of each", seed: "First seed" };
 const WHAT =
@@ -25,12 +26,12 @@ export class Campaigns {
     this.fields = new Map(
       Object.entries(FIELDS).map(([name, label]) => [
         name,
-        new NumberField(`draft-${name}`, label, (value) => send({ type: "draft", name, value })),
+        new NumberField(`draft-${name}`, label, (value) => send(request.draft(name, value))),
       ]),
     );
     this.time = h("span", { class: "where", role: "status" });
     identify(this.time, "draft-time");
-    this.start = h("button", { type: "button", class: "button first", onclick: () => send({ type: "start" }) }, "Start campaign");
+    this.start = h("button", { type: "button", class: "button first", onclick: () => send(request.start()) }, "Start campaign");
     identify(this.start, "campaign-start");
     this.list = h("ul", { class: "campaign-list" });
     identify(this.list, "campaigns", "Campaigns");
@@ -56,7 +57,7 @@ export class Campaigns {
     this.start.disabled = Object.keys(findings).length > 0;
   }
 
-  /** @param {import("./protocol.js").StatusMessage} message */
+  /** @param {import("./protocol.js").CampaignStatusMessage} message */
   showStatus({ phase, name }) {
     this.#running = phase === "RUNNING" ? name : null;
     for (const item of this.#items.values()) item.run(item.name === this.#running);
@@ -80,7 +81,7 @@ export class Campaigns {
   }
 
   #size(name) {
-    const onclick = () => this.send({ type: "size", name });
+    const onclick = () => this.send(request.size(name));
     const button = h("button", { type: "button", class: "segment", "data-name": name, onclick }, name);
     identify(button, `size-${name}`);
     return button;
@@ -90,10 +91,10 @@ export class Campaigns {
 class Item {
   constructor(name, send) {
     this.name = name;
-    this.open = h("button", { type: "button", class: "campaign-name", onclick: () => send({ type: "open", name }) }, name);
+    this.open = h("button", { type: "button", class: "campaign-name", onclick: () => send(request.open(name)) }, name);
     this.details = h("div", { class: "detail" });
     this.state = h("span", { class: "detail" });
-    this.goOn = h("button", { type: "button", class: "quiet", onclick: () => send({ type: "resume", name }) }, "Go on");
+    this.goOn = h("button", { type: "button", class: "quiet", onclick: () => send(request.resume(name)) }, "Go on");
     const address = reportAddress(name);
     this.report = h("a", { class: "quiet", href: address, target: "_blank", rel: "noopener" }, "Report");
     this.save = h("a", { class: "quiet", href: address, download: `${name}.html` }, icon("save"));
@@ -102,7 +103,7 @@ class Item {
   }
 
   /**
-   * @param {import("./protocol.js").Summary} summary
+   * @param {import("./protocol.js").KeptCampaign} summary
    * @param {number} number
    * @param {boolean} shown
    */

@@ -3,6 +3,7 @@
 import { h, icon, identify } from "../common/dom.js";
 import { ruleSetFile } from "../common/file.js";
 import { NumberField } from "./field.js";
+import { request } from "./protocol.js";
 
 export class Choice {
   /**
@@ -15,14 +16,14 @@ export class Choice {
     this.notices = notices;
     this.rules = new Offers("rules", "Rule sets", send);
     this.scenarios = new Offers("scenarios", "Scenarios", send);
-    const typed = (name) => (value) => send({ type: "choice", name, value });
+    const typed = (name) => (value) => send(request.choice(name, value));
     this.runs = new NumberField("runs", "Runs", typed("runs"));
     this.seed = new NumberField("seed", "Seed", typed("seed"));
     this.against = h("select", { id: "against", onchange: () => typed("against")(this.against.value) });
     identify(this.against, "against");
     const against = h("div", { class: "field" }, h("label", { for: "against" }, "Against"), this.against);
-    this.start = h("button", { type: "button", class: "button first", onclick: () => send({ type: "compare" }) }, "Compare");
-    this.cancel = h("button", { type: "button", class: "button", hidden: true, onclick: () => send({ type: "cancel" }) }, "Cancel");
+    this.start = h("button", { type: "button", class: "button first", onclick: () => send(request.compare()) }, "Compare");
+    this.cancel = h("button", { type: "button", class: "button", hidden: true, onclick: () => send(request.cancel()) }, "Cancel");
     identify(this.start, "compare-start");
     identify(this.cancel, "compare-cancel");
     this.progress = h("progress", { "aria-label": "Runs done", max: 1, value: 0, hidden: true });
@@ -52,7 +53,7 @@ export class Choice {
   }
 
   #files() {
-    const file = ruleSetFile(this.notices, ({ name, text }) => this.send({ type: "file", name, text }));
+    const file = ruleSetFile(this.notices, ({ name, text }) => this.send(request.file(name, text)));
     const button = h("button", { type: "button", class: "quiet", onclick: () => file.click() }, icon("open"), "Open file…");
     identify(button, "open-file");
     return h("div", {}, button, file);
@@ -93,7 +94,7 @@ class Offers {
 
   #row() {
     const tick = ({ target }) =>
-      this.send({ type: "choose", what: this.what, name: target.closest("li").dataset.name, on: target.checked });
+      this.send(request.choose(this.what, target.closest("li").dataset.name, target.checked));
     const box = h("input", { type: "checkbox", onchange: tick });
     return h("li", {}, h("label", {}, box, h("span", {}), h("span", { class: "detail" })));
   }

@@ -1,9 +1,7 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
 import { h } from "../common/dom.js";
-import { tellFrames } from "../common/frames.js";
-import { Notices } from "../common/notices.js";
-import { Socket, socketAddress } from "../common/socket.js";
+import { Page, element } from "../common/page.js";
 import { Tabs } from "../common/tabs.js";
 import { Boxes } from "./boxes.js";
 import { Campaign } from "./campaign.js";
@@ -11,18 +9,8 @@ import { Campaigns } from "./campaigns.js";
 import { Choice } from "./choice.js";
 import { Status } from "./status.js";
 
-const IN_VIEW = 1000; // ms between two words that this page is in view
-
-const element = (id) => document.getElementById(id);
-const notices = new Notices(element("notices"));
-
-/** With what is asked for, errors about what was asked for before are of no interest. */
-function send(message) {
-  notices.forget();
-  const sent = socket.send(message);
-  if (!sent) notices.stress();
-  return sent;
-}
+const page = new Page();
+const { ask: send, notices } = page;
 
 const choice = new Choice(element("compare"), send, notices);
 const boxes = new Boxes(element("compare"));
@@ -55,15 +43,5 @@ const handlers = {
   notice: ({ level, text }) => notices.show(level, text),
 };
 
-const socket = new Socket(socketAddress(), {
-  opened: () => notices.connected(true),
-  closed: () => notices.connected(false),
-  refused: (why) => notices.refused(why),
-  message: (message) => handlers[message.type]?.(message),
-});
-tellFrames(socket);
-
-/** A page in a tab of the dashboard that is not in view has no size. */
-setInterval(() => {
-  if (!document.hidden && innerWidth > 0) socket.send({ type: "watch" });
-}, IN_VIEW);
+page.connect(handlers);
+page.tellInView();

@@ -2,6 +2,7 @@
 
 import { h, identify } from "../common/dom.js";
 import { duration } from "./duration.js";
+import { request } from "./protocol.js";
 
 export class Status {
   /** @param {(message: object) => boolean} send */
@@ -9,8 +10,8 @@ export class Status {
     this.send = send;
     this.line = h("span", { class: "status-words" });
     identify(this.line, "status");
-    this.stop = h("button", { type: "button", class: "button", onclick: () => send({ type: "stop" }) }, "Stop");
-    this.goOn = h("button", { type: "button", class: "button", onclick: () => send({ type: "resume", name: this.name }) }, "Go on");
+    this.stop = h("button", { type: "button", class: "button", onclick: () => send(request.stop()) }, "Stop");
+    this.goOn = h("button", { type: "button", class: "button", onclick: () => send(request.resume(this.name)) }, "Go on");
     identify(this.stop, "stop");
     identify(this.goOn, "go-on");
     this.progress = h("progress", { "aria-label": "Campaign done", max: 1, value: 0 });
@@ -19,7 +20,7 @@ export class Status {
     this.node = h("div", { class: "status", hidden: true }, this.progress, line, this.error);
   }
 
-  /** @param {import("./protocol.js").StatusMessage} message */
+  /** @param {import("./protocol.js").CampaignStatusMessage} message */
   update({ phase, name, share, doing, seconds_left: left, error }) {
     const active = phase === "RUNNING";
     const halted = phase === "STOPPED" || phase === "FAILED";

@@ -6,6 +6,7 @@ import { ActionChip, BehaviourChip, PreconditionChip, actionChoices, preconditio
 import { makeDraggable } from "./drag.js";
 import { draftField, growing } from "./field.js";
 import { findingLine } from "./finding.js";
+import { edits } from "./protocol.js";
 import { fill, isTruth, plainTerm, written } from "./terms.js";
 
 const PARTS = [
@@ -98,16 +99,16 @@ export class RuleCard {
     const last = this.session.state.rule_set.rules.length - 1;
     this.edit((rule) => {
       const to = rule + by;
-      return to < 0 || to > last ? null : { do: "move_rule", rule, to };
+      return to < 0 || to > last ? null : edits.moveRule(rule, to);
     });
   }
 
   duplicate() {
-    this.edit((rule) => ({ do: "duplicate_rule", rule }));
+    this.edit((rule) => edits.duplicateRule(rule));
   }
 
   remove() {
-    this.edit((rule) => ({ do: "remove_rule", rule }));
+    this.edit((rule) => edits.removeRule(rule));
   }
 
   /** Vocabulary entries of a part that this rule does not mention yet, or can mention again. */
@@ -117,7 +118,7 @@ export class RuleCard {
     return this.session.vocabulary[part].filter((entry) => again(entry) || !present.has(entry.name));
   }
 
-  /** @returns {import("./protocol.js").Finding[]} */
+  /** @returns {import("./protocol.js").RuleFinding[]} */
   findingsAt(element) {
     return this.session.state.findings.filter(
       (finding) => finding.rule === this.index + 1 && (!element || finding.element === element),
@@ -224,7 +225,7 @@ export class RuleCard {
 
   #add(part, element) {
     this.rows[part].awaited = true;
-    this.edit((rule) => ({ do: "add", rule, part, at: this.rule[part].length, element }));
+    this.edit((rule) => edits.add(rule, part, this.rule[part].length, element));
   }
 
   #gutter() {
@@ -238,7 +239,7 @@ export class RuleCard {
         role: "switch",
         title: "Switch this rule on or off",
         onclick: () =>
-          this.edit((rule) => ({ do: "set_enabled", rule, enabled: !this.rule.enabled })),
+          this.edit((rule) => edits.setEnabled(rule, !this.rule.enabled)),
       },
       h("span", { class: "knob" }),
     );
@@ -259,14 +260,14 @@ export class RuleCard {
     const wrapper = growing(this.comment);
     this.draft = draftField(this.comment, {
       tidy: (text) => text.trim(),
-      commit: (comment, refused) => this.edit((rule) => ({ do: "set_comment", rule, comment }), refused),
+      commit: (comment, refused) => this.edit((rule) => edits.setComment(rule, comment), refused),
       keep: (text, cursor) =>
         this.session.keep({
           what: `The explanation of R${this.index + 1}`,
           text,
           cursor,
           rule: this.rule,
-          edit: (comment, rule) => ({ do: "set_comment", rule, comment }),
+          edit: (comment, rule) => edits.setComment(rule, comment),
         }),
       changed: wrapper.fit,
     });

@@ -2,6 +2,7 @@
 
 import { h } from "../common/dom.js";
 import { compareElements, compareRules } from "./difference.js";
+import { request } from "./protocol.js";
 
 const PARTS = { preconditions: "P", behaviours: "B", actions: "A" };
 
@@ -21,7 +22,7 @@ export class ChangesTab {
     this.back.append(...words);
     this.back.title = "Undo brings the present version back";
     this.back.addEventListener("click", () => {
-      session.command({ type: "set_text", text: this.#message.loaded_text });
+      session.command(request.setText(this.#message.loaded_text));
     });
     this.list = h("div", { class: "rules" });
     root.append(this.title, this.list);

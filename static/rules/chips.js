@@ -3,6 +3,7 @@
 import { h, iconButton, identify } from "../common/dom.js";
 import { menuButton } from "../common/menu.js";
 import { parseProbability, probabilityField } from "./probability.js";
+import { edits } from "./protocol.js";
 import { Arguments, ValueButton, entryOf, fill, isTruth, named, plainTerm, written } from "./terms.js";
 
 /** What all chips have in common: a place in a rule, a remove button and findings. */
@@ -11,7 +12,7 @@ class Chip {
 
   /**
    * @param {import("./card.js").RuleCard} card
-   * @param {import("./protocol.js").Part} part
+   * @param {import("./protocol.js").RulePart} part
    */
   constructor(card, part) {
     this.card = card;
@@ -31,16 +32,12 @@ class Chip {
     return this.card.edit((rule) => {
       const element = change(this.item);
       const same = JSON.stringify(element) === JSON.stringify(this.item);
-      return same ? null : this.#place(rule, "set", { element });
+      return same || this.index < 0 ? null : edits.set(rule, this.part, this.index, element);
     }, refused);
   }
 
   remove() {
-    return this.card.edit((rule) => this.#place(rule, "remove"));
-  }
-
-  #place(rule, what, more = {}) {
-    return this.index < 0 ? null : { do: what, rule, part: this.part, at: this.index, ...more };
+    return this.card.edit((rule) => (this.index < 0 ? null : edits.remove(rule, this.part, this.index)));
   }
 
   update(item, index) {
@@ -213,7 +210,7 @@ export class ActionChip extends Chip {
     const { item, index: at, part, card } = this;
     const edit = (typed, rule) => {
       const p = parseProbability(typed);
-      return Number.isNaN(p) ? null : { do: "set", rule, part, at, element: { ...item, p } };
+      return Number.isNaN(p) ? null : edits.set(rule, part, at, { ...item, p });
     };
     const what = `The probability of ${item.behaviour?.name ?? item.state} in R${card.index + 1}`;
     card.session.keep({ what, text, cursor, rule: card.rule, edit });
@@ -229,7 +226,7 @@ export class ActionChip extends Chip {
 /**
  * Everything that an action can do, as menu choices.
  *
- * @param {import("./protocol.js").Vocabulary} vocabulary
+ * @param {import("./protocol.js").VocabularyMessage} vocabulary
  * @param {(element: object) => void} choose Called with the action but for its probability.
  */
 export function actionChoices(vocabulary, choose) {

@@ -1,6 +1,7 @@
 /** Rules are copied, cut and pasted as text in the rule language, also between windows. */
 
 import { isEditing } from "./grid.js";
+import { edits } from "./protocol.js";
 
 /**
  * @param {import("./session.js").Session} session
@@ -34,6 +35,6 @@ export function listenToClipboard(session, table, notices) {
       return;
     }
     const card = table.cardOf(document.activeElement);
-    session.edit(() => ({ do: "paste_rules", at: card && card.index >= 0 ? card.index + 1 : table.cards.length, text }));
+    session.edit(() => edits.pasteRules(card && card.index >= 0 ? card.index + 1 : table.cards.length, text));
   });
 }

@@ -1,5 +1,7 @@
 /** Rules are dragged to another place by their number. */
 
+import { edits } from "./protocol.js";
+
 const THRESHOLD = 4; // px before a press becomes a drag
 
 /**
@@ -27,7 +29,7 @@ export function makeDraggable(card, handle) {
     card.node.style.removeProperty("transform");
     mark(card, card.index);
     if (event.type !== "pointerup" || !dragging || to === card.index) return;
-    card.edit((rule) => ({ do: "move_rule", rule, to }));
+    card.edit((rule) => edits.moveRule(rule, to));
   }
 
   handle.addEventListener("pointerdown", (event) => {

@@ -4,10 +4,11 @@ import { h, icon, iconButton, identify } from "../common/dom.js";
 import { ruleSetFile } from "../common/file.js";
 import { menuButton } from "../common/menu.js";
 import { draftField, growing } from "./field.js";
+import { edits, request } from "./protocol.js";
 
 /**
  * @param {import("./protocol.js").Origin} origin
- * @param {import("./protocol.js").Vocabulary} vocabulary
+ * @param {import("./protocol.js").VocabularyMessage} vocabulary
  * @returns {string} Where the rules came from, in words.
  */
 export function describeOrigin({ preset, run, generation, fitness }, vocabulary) {
@@ -34,8 +35,8 @@ export class Header {
   constructor(root, session, notices, people, help, ...below) {
     this.session = session;
     this.notices = notices;
-    this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => session.command({ type: "undo" }));
-    this.redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => session.command({ type: "redo" }));
+    this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => session.command(request.undo()));
+    this.redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => session.command(request.redo()));
     identify(this.undo, "undo", "Undo");
     identify(this.redo, "redo", "Redo");
     this.origin = h("div", { class: "origin", "data-testid": "origin" });
@@ -69,14 +70,14 @@ export class Header {
     const wrapper = growing(input);
     this.draft = draftField(input, {
       tidy: (text) => text.replace(/\s+/g, " ").trim(),
-      commit: (name, refused) => this.session.edit(() => ({ do: "set_name", name }), refused),
+      commit: (name, refused) => this.session.edit(() => edits.setName(name), refused),
       keep: (text, cursor) =>
         this.session.keep({
           what: "The name of the rules",
           text,
           cursor,
           rule: null,
-          edit: (name) => ({ do: "set_name", name }),
+          edit: (name) => edits.setName(name),
         }),
       changed: wrapper.fit,
     });
@@ -85,7 +86,7 @@ export class Header {
 
   #files() {
     const file = ruleSetFile(this.notices, ({ name, text }) =>
-      this.session.command({ type: "load_text", name, text }),
+      this.session.command(request.loadText(text, name)),
     );
     const load = menuButton(
       { class: "button", "data-testid": "load", "aria-label": "Load a rule set" },
@@ -100,7 +101,7 @@ export class Header {
         class: "button",
         "data-testid": "save",
         "aria-label": "Save the rule set as a YAML file",
-        onclick: () => this.session.command({ type: "save", format: "yaml" }),
+        onclick: () => this.session.command(request.save("yaml")),
       },
       icon("save"),
       "Save",
@@ -113,7 +114,7 @@ export class Header {
       id: name,
       label: title,
       detail: "preset",
-      choose: () => this.session.command({ type: "load_preset", name }),
+      choose: () => this.session.command(request.loadPreset(name)),
     }));
     const open = { id: "file", label: "Open file…", detail: "YAML, text or JSON", divided: true };
     return [...presets, { ...open, choose: () => file.click() }];

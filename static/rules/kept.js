@@ -15,7 +15,7 @@ const AWAY = "was typed while the connection was lost, and is not applied.";
  * @property {string} text
  * @property {?[number, number]} cursor Where the cursor is in the text; null if it is elsewhere.
  * @property {?import("./protocol.js").Rule} rule The rule that it is for; null if it is for all of them.
- * @property {(text: string, rule: number) => ?import("./protocol.js").Edit} edit Null if the text says nothing.
+ * @property {(text: string, rule: number) => ?import("./protocol.js").AnyEdit} edit Null if the text says nothing.
  */
 
 export class KeptTexts {
@@ -79,7 +79,7 @@ export class KeptTexts {
     entry.node.remove();
   }
 
-  /** @returns {?import("./protocol.js").Edit} Null if there is nothing that the text could be applied to. */
+  /** @returns {?import("./protocol.js").AnyEdit} Null if there is nothing that the text could be applied to. */
   #edit({ typed, area }) {
     const rules = this.session.state?.rule_set.rules ?? [];
     const wanted = JSON.stringify(typed.rule);

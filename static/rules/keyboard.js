@@ -1,6 +1,7 @@
 /** Keys that work anywhere on the page. */
 
 import { isEditing, isText } from "./grid.js";
+import { request } from "./protocol.js";
 
 /**
  * @param {import("./session.js").Session} session
@@ -28,10 +29,10 @@ function wholePage(event, session) {
   if (!event.ctrlKey && !event.metaKey) return null;
   const typing = isText(event.target) && event.target.hasAttribute("data-draft");
   const key = event.key.toLowerCase();
-  if (key === "s") return () => session.command({ type: "save", format: "yaml" });
+  if (key === "s") return () => session.command(request.save("yaml"));
   if (typing) return null;
-  if (key === "z") return () => session.command({ type: event.shiftKey ? "redo" : "undo" });
-  if (key === "y") return () => session.command({ type: "redo" });
+  if (key === "z") return () => session.command(event.shiftKey ? request.redo() : request.undo());
+  if (key === "y") return () => session.command(request.redo());
   return null;
 }
 
@@ -56,7 +57,7 @@ function arena(event, session) {
   if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return null;
   if (event.target.closest?.("input, textarea, select, [popover]")) return null;
   const key = event.key.toUpperCase();
-  return "POXFR".includes(key) && key.length === 1 ? () => session.command({ type: "key", key }) : null;
+  return "POXFR".includes(key) && key.length === 1 ? () => session.command(request.key(key)) : null;
 }
 
 function elsewhere(event, grid, help) {

@@ -58,7 +58,7 @@ export class Live {
     this.node.append(this.bar, h("div", { class: "live-line" }, this.legend, this.time));
   }
 
-  /** @param {import("./protocol.js").Vocabulary} vocabulary */
+  /** @param {import("./protocol.js").VocabularyMessage} vocabulary */
   name({ behaviours }) {
     this.counts = behaviours.map(() => h("b", {}, "0"));
     this.shares = behaviours.map(({ colour }) => led(h("span", { class: "share" }), colour));

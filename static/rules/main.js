@@ -1,9 +1,7 @@
 /** Starts the page and hands each message of the server to the part that shows it. */
 
 import { h } from "../common/dom.js";
-import { tellFrames } from "../common/frames.js";
-import { Notices } from "../common/notices.js";
-import { Socket, socketAddress } from "../common/socket.js";
+import { Page, element } from "../common/page.js";
 import { tabStore } from "../common/store.js";
 import { Tabs } from "../common/tabs.js";
 import { ChangesTab } from "./changes.js";
@@ -31,12 +29,12 @@ const CHANGES = new Set([
 ]);
 const UNANSWERED = "The connection was lost before the last change was confirmed: look whether it was made.";
 
-const element = (id) => document.getElementById(id);
-const notices = new Notices(element("notices"));
+const page = new Page();
+const { notices } = page;
 const session = new Session(
   (message) => {
     if (CHANGES.has(message.type)) notices.forget();
-    return socket.send(message);
+    return page.send(message);
   },
   () => notices.stress(),
   (typed) => kept.add(typed, away),
@@ -122,18 +120,14 @@ const handlers = {
   },
 };
 
-const socket = new Socket(socketAddress(), {
+page.connect(handlers, {
   opened: () => people.introduce(),
   closed() {
-    notices.connected(false);
     unanswered ||= session.disconnected();
     tellDrafts("connectionlost");
     away = true;
   },
-  refused: (why) => notices.refused(why),
-  message: (message) => handlers[message.type]?.(message),
 });
-tellFrames(socket);
 
 /** What was typed meanwhile was typed for the rules as they were: it is offered, and not applied. */
 function comeBack() {

@@ -3,6 +3,7 @@
 import { dialog } from "../common/dialog.js";
 import { h, identify } from "../common/dom.js";
 import { browserStore } from "../common/store.js";
+import { request } from "./protocol.js";
 
 const MAX_NAME = 30;
 const KEPT = "geswarm-name";
@@ -25,7 +26,7 @@ export class People {
   /** Tell the server what this person is called; with every new connection. */
   introduce() {
     const name = browserStore.get(KEPT);
-    if (name) this.session.send({ type: "name", name });
+    if (name) this.session.send(request.name(name));
   }
 
   /** @param {import("./protocol.js").PeopleMessage} message */
@@ -45,6 +46,6 @@ export class People {
 
   #call(name) {
     browserStore.set(KEPT, name);
-    this.session.send({ type: "name", name });
+    this.session.send(request.name(name));
   }
 }

@@ -1,8 +1,8 @@
 /** What the server last said, and the edits on their way to it. */
 
+import { request } from "./protocol.js";
+
 const PATIENCE = 3000;
-const FOR_A_VERSION = new Set(["edit", "undo", "redo", "set_text"]);
-const ANSWERED = new Set([...FOR_A_VERSION, "take_simplified"]);
 
 /**
  * @typedef {object} Request
@@ -11,7 +11,7 @@ const ANSWERED = new Set([...FOR_A_VERSION, "take_simplified"]);
  */
 
 export class Session {
-  /** @type {?import("./protocol.js").Vocabulary} */
+  /** @type {?import("./protocol.js").VocabularyMessage} */
   vocabulary = null;
   /** @type {?import("./protocol.js").RulesMessage} */
   state = null;
@@ -63,14 +63,14 @@ export class Session {
    * edit made while another is under way still hits the element it was meant for, wherever that
    * has moved to; it returns null if the element has gone.
    *
-   * @param {() => ?import("./protocol.js").Edit} make
+   * @param {() => ?import("./protocol.js").AnyEdit} make
    * @param {() => void} [refused] Called if the edit was not made.
    * @returns {boolean} False if there is no connection.
    */
   edit(make, refused) {
     return this.#post(() => {
       const edit = make();
-      return edit && { type: "edit", edit };
+      return edit && request.edit(edit);
     }, refused);
   }
 
@@ -98,10 +98,10 @@ export class Session {
    * @param {number} [version] What it was meant for, if the server has sent newer rules since.
    */
   refused(version) {
-    const request = this.#asked ?? this.#answered;
-    if (!request || (version ?? request.version) !== request.version) return;
+    const last = this.#asked ?? this.#answered;
+    if (!last || (version ?? last.version) !== last.version) return;
     this.#asked = this.#answered = null;
-    request.refused();
+    last.refused();
   }
 
   /**
@@ -141,8 +141,10 @@ export class Session {
     const message = make();
     if (!message) return;
     const { version } = this.state;
-    if (!this.send(FOR_A_VERSION.has(message.type) ? { ...message, version } : message)) return refused();
-    if (!ANSWERED.has(message.type)) return;
+    const isChange = "version" in message; // of the rules as they are: it names them, and is answered
+    if (isChange) message.version ??= version;
+    if (!this.send(message)) return refused();
+    if (!isChange) return;
     this.#asked = { refused, version };
     this.#timer = setTimeout(() => this.settled(), PATIENCE);
   }

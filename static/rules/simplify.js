@@ -2,6 +2,7 @@
 
 import { dialog } from "../common/dialog.js";
 import { h, identify } from "../common/dom.js";
+import { request } from "./protocol.js";
 
 /** The shortest rules with exactly the same behaviour, shown before they are taken. */
 export class Simplify {
@@ -14,7 +15,7 @@ export class Simplify {
     this.session = session;
     this.button = h("button", { type: "button", class: "quiet", hidden: true });
     this.button.addEventListener("click", () => {
-      this.#asked = session.command({ type: "simplify" });
+      this.#asked = session.command(request.simplify());
     });
     this.node = dialog("simplified", "Simpler, with exactly the same behaviour");
     this.removed = h("ul", { class: "removed", "data-testid": "simplified-removed" });
@@ -63,6 +64,6 @@ export class Simplify {
 
   #take() {
     const { version } = this.#offer;
-    if (this.session.command({ type: "take_simplified", version })) this.node.close();
+    if (this.session.command(request.takeSimplified(version))) this.node.close();
   }
 }

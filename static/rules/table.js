@@ -3,6 +3,7 @@
 import { focusAnswer, h, icon, keepingFocus, reconcile } from "../common/dom.js";
 import { RuleCard } from "./card.js";
 import { findingLine } from "./finding.js";
+import { edits } from "./protocol.js";
 
 const GLIDE = { duration: 180, easing: "ease-out" };
 const EMPTY_RULE = { comment: "", enabled: true, preconditions: [], behaviours: [], actions: [] };
@@ -55,7 +56,7 @@ export class RuleTable {
 
   #addRule() {
     this.#asked = true;
-    this.session.edit(() => ({ do: "add_rule", at: this.cards.length, rule: EMPTY_RULE }));
+    this.session.edit(() => edits.addRule(this.cards.length, EMPTY_RULE));
   }
 
   /** Let the cards glide to their new places, so that the eye can follow. */

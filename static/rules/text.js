@@ -3,6 +3,7 @@
 import { h, identify } from "../common/dom.js";
 import { tabStore } from "../common/store.js";
 import { findingLine } from "./finding.js";
+import { request } from "./protocol.js";
 
 const KEPT = "geswarm-text"; // what is not applied, and the rules that it was typed for
 const PAUSE = 250; // ms without a key before the text is checked
@@ -39,7 +40,7 @@ class Backdrop {
     });
   }
 
-  /** @param {import("./protocol.js").TextFinding[]} findings */
+  /** @param {import("./protocol.js").RuleFinding[]} findings */
   mark(findings) {
     this.#lines.forEach(({ node }, i) => {
       const [worst] = findings.filter((finding) => finding.line === i + 1);
@@ -165,7 +166,7 @@ export class TextTab {
   }
 
   #check() {
-    if (this.session.connected) this.session.command({ type: "check_text", text: this.area.value });
+    if (this.session.connected) this.session.command(request.checkText(this.area.value));
   }
 
   #refresh() {
@@ -188,7 +189,7 @@ export class TextTab {
   #apply() {
     if (this.apply.disabled) return;
     const [text, base] = [this.area.value, this.#base];
-    if (this.session.command({ type: "set_text", text }, () => this.#putBack(text, base))) this.#sent = text;
+    if (this.session.command(request.setText(text), () => this.#putBack(text, base))) this.#sent = text;
     this.area.focus({ preventScroll: true });
   }
 

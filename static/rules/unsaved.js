@@ -1,6 +1,7 @@
 /** Rules that were not saved before the dashboard was killed: bring them back, or discard them. */
 
 import { h, icon, identify } from "../common/dom.js";
+import { request } from "./protocol.js";
 
 export class UnsavedRules {
   /**
@@ -13,7 +14,7 @@ export class UnsavedRules {
     root.append(this.node);
   }
 
-  /** @param {import("./protocol.js").Unsaved[]} left */
+  /** @param {import("./protocol.js").UnsavedRules[]} left */
   update(left) {
     this.node.replaceChildren(...left.map((rules) => this.#notice(rules)));
   }
@@ -21,9 +22,9 @@ export class UnsavedRules {
   #notice({ file, name, rules, edited }) {
     const when = new Date(edited * 1000).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
     const words = `Not saved when the dashboard was killed: ${name || "rules without a name"}, ${rules} rules, edited ${when}.`;
-    const choice = (id, label, type) => {
+    const choice = (id, label, message) => {
       const button = h("button", { type: "button", class: "button" }, label);
-      button.addEventListener("click", () => this.session.command({ type, file }));
+      button.addEventListener("click", () => this.session.command(message));
       identify(button, id);
       return button;
     };
@@ -32,8 +33,8 @@ export class UnsavedRules {
       { class: "notice offline unsaved", role: "status" },
       icon("warning"),
       h("span", { class: "notice-text" }, words),
-      choice("bring-back", "Bring them back", "bring_back"),
-      choice("discard", "Discard", "discard"),
+      choice("bring-back", "Bring them back", request.bringBack(file)),
+      choice("discard", "Discard", request.discard(file)),
     );
     identify(notice, "unsaved");
     return notice;

@@ -9,7 +9,7 @@ const GOLDEN = 0.618; // spreads equal values without chance
 /** @typedef {"better" | "worse" | "even" | "same"} Judgement */
 
 /**
- * @param {import("./protocol.js").Comparison} comparison
+ * @param {import("./protocol.js").RoleComparison} comparison
  * @returns {Judgement} "even" if the interval holds zero, "same" if no run differs.
  */
 export function judge({ difference, low, high }) {

@@ -2,6 +2,7 @@
 
 import { h, icon, identify, svg } from "../common/dom.js";
 import { interval, signed } from "../common/figures.js";
+import { request } from "./protocol.js";
 
 const HEIGHT = 9; // px of a bar's picture
 
@@ -10,7 +11,7 @@ const HEIGHT = 9; // px of a bar's picture
 /**
  * One scale for all bars. Worth counts to the right: what is lost without the piece.
  *
- * @param {import("./protocol.js").Piece[]} pieces
+ * @param {import("./protocol.js").WeighedPiece[]} pieces
  * @returns {Scale}
  */
 function scaleOf(pieces) {
@@ -25,7 +26,7 @@ const kindOf = ({ low, high }) => (high < 0 ? "needed" : low > 0 ? "harmful" : "
 const keyOf = (rule, part, at) => (part === "rule" ? `${rule}` : `${rule} ${part} ${at}`);
 
 /**
- * @param {import("./protocol.js").Piece} piece
+ * @param {import("./protocol.js").WeighedPiece} piece
  * @param {Scale} scale
  * @param {string} name What the piece is called.
  */
@@ -61,12 +62,12 @@ export class Worth {
     const button = (id, label, onclick, ...children) =>
       h("button", { type: "button", class: "quiet", "data-testid": id, "aria-label": label, onclick }, ...children);
     const words = [h("span", { class: "long" }, "What is each piece worth?"), h("span", { class: "short" }, "What is each worth?")];
-    this.start = button("worth-start", "What is each piece worth?", () => session.command({ type: "worth_start" }), ...words);
+    this.start = button("worth-start", "What is each piece worth?", () => session.command(request.worthStart()), ...words);
     this.start.title = "Takes every rule and element out in turn and runs the swarm without it";
     this.hide = button("worth-hide", "Hide what each piece is worth", () => this.#show(null), "Hide worth");
     this.count = h("span", { class: "runs", role: "status", "data-testid": "worth-progress" });
     this.bar = h("progress", { "aria-label": "Pieces evaluated" });
-    const cancel = () => session.command({ type: "worth_cancel" });
+    const cancel = () => session.command(request.worthCancel());
     this.cancel = button("worth-cancel", "Stop evaluating the pieces", cancel, icon("remove"), "Cancel");
     this.running = h("span", { class: "worth-tools", hidden: true }, this.bar, this.count, this.cancel);
     this.node = h("span", { class: "worth-tools" }, this.start, this.running, this.hide);

@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from geswarm.app.protocol.pages import reader_of
 from geswarm.app.server.access import Access
 from geswarm.app.server.channel import Channel
 from geswarm.app.server.gate import open_server
@@ -68,7 +69,12 @@ def page(browser):
 
 @pytest.fixture
 def channel():
-    return Channel(on_message=lambda client, message: None)
+    return Channel(
+        reader_of("rules", watched=False),
+        on_message=lambda client, message: None,
+        on_refused=lambda client, why: None,
+        on_connect=lambda client: None,
+    )
 
 
 @pytest.fixture

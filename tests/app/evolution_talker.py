@@ -1,5 +1,6 @@
 """Talks to an evolution page without a socket, as its pages do."""
 
+import json
 import time
 
 import pytest
@@ -21,7 +22,7 @@ class Talker:
         quick = load_scenario("paper").with_changes(duration=20.0)
         self.session = Session(quick, EVO8, EvolutionThread(workers=1))
         self.page = EvolutionPage(self.session)
-        self._receive, self._greet = self.page.channel.on_message, self.page.channel.on_connect
+        self._hear, self._greet = self.page.channel.hear, self.page.channel.on_connect
         self.page.channel = Recorder()
 
     @property
@@ -33,7 +34,7 @@ class Talker:
         self.session.frame(0.0, 1.0)
 
     def say(self, kind, **message):
-        self._receive("client", {"type": kind, **message})
+        self._hear("client", json.dumps({"type": kind, **message}))
         self.session.frame(0.0, 1.0)
         self.page.sync(0.1)
 

@@ -30,6 +30,7 @@ from geswarm.rules import (
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
+from tests.app.wire import as_read, typed
 
 STATIC = Path(geswarm.__file__).resolve().parent.parent / "static"
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src *"
@@ -99,7 +100,7 @@ class RulesServer:
 
     def change(self, edit):
         """Another page makes an edit."""
-        self.document.edit(edit)
+        self.document.edit(typed(edit))
         self.push(self.rules())
 
     def show(self, rule_set):
@@ -158,7 +159,7 @@ class RulesServer:
         """The state machine of the rules as they are now."""
         machine = StateMachine.of(self.document.rule_set)
         drawn = DrawnMachine(self.document.rule_set, machine, brief_svg(machine))
-        self.push(rule_messages.states_message(drawn))
+        self.push(as_read(rule_messages.states_message(drawn)))
 
     def activity(self, time, robots, taken, swarm=4):
         self.push(
@@ -303,7 +304,7 @@ def text_findings(text):
 
 def vocabulary():
     return {
-        **rule_messages.vocabulary_message(),
+        **as_read(rule_messages.vocabulary_message()),
         "presets": [
             {"name": "evo8", "title": "EVO 8"},
             {"name": "hand-coded", "title": "Hand-coded"},

@@ -11,6 +11,7 @@ from websockets.sync.client import connect
 
 from geswarm.app.dashboard import open_dashboard
 from geswarm.app.panels.swarm_panel import detail_html
+from geswarm.app.protocol.base import FrameTime
 from geswarm.app.scene.arena import Arena
 from geswarm.app.scene.detail import MOST_IN_FULL, Detail, DetailKeeper
 from geswarm.app.scene.pointer import Pointer, nearest
@@ -118,9 +119,8 @@ def test_a_robot_that_is_a_point_is_selected_by_a_click_near_it():
     assert calls == [1, None]
 
 
-@pytest.mark.parametrize("told", [None, True, "1", [1], {}])
-def test_a_browser_that_is_not_looked_at_or_talks_nonsense_counts_for_nothing(told):
-    assert frame_told({"type": "frame_time", "milliseconds": told}) is None
+def test_a_browser_that_is_not_looked_at_counts_for_nothing():
+    assert frame_told(FrameTime(None)) is None
 
 
 def test_what_pages_tell_of_their_frames_counts_and_so_does_silence(server, channel, monkeypatch):

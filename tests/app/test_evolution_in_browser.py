@@ -15,6 +15,7 @@ from geswarm.app.state.session import Session
 from geswarm.evolution import ForagingFitness
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
+from tests.app.wire import typed
 
 sync_api = pytest.importorskip("playwright.sync_api")
 expect = sync_api.expect
@@ -180,7 +181,7 @@ def test_rules_that_cannot_enter_are_named(page, served):
     served.evolve(**ENDLESS)
     action = {"p": 0.3, "behaviour": "RANDOM_WALK"}
     edit = {"do": "set", "rule": 0, "part": "actions", "at": 0, "element": action}
-    served.do(lambda session: session.edit(edit))
+    served.do(lambda session: session.edit(typed(edit)))
     tab(page, "steer")
     page.get_by_test_id("inject").click()
     expect(page.get_by_test_id("notice-error")).to_contain_text("rule 1: p = 0.3 cannot evolve")

@@ -50,7 +50,7 @@ def test_a_finished_run_is_extended(talker):
         (0, "expected a whole number >= 1"),
         (10**9, "expected at most"),
         (4.5, "expected a whole number, got 4.5"),
-        ("many", "expected a whole number, got many"),
+        ("many", "expected a whole number, got 'many'"),
     ],
 )
 def test_a_number_of_generations_that_cannot_be_is_told(talker, generations, words):

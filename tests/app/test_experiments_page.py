@@ -34,7 +34,7 @@ class Talker:
     def __init__(self):
         self.session = Session(QUICK, EVO8, EvolutionThread(workers=1))
         self.page = ExperimentsPage(self.session)
-        self._receive, self._greet = self.page.channel.on_message, self.page.channel.on_connect
+        self._hear, self._greet = self.page.channel.hear, self.page.channel.on_connect
         self.page.channel = Recorder()
 
     def arrive(self):
@@ -42,7 +42,7 @@ class Talker:
         self.session.frame(0.0, 1.0)
 
     def say(self, kind, **message):
-        self._receive("client", {"type": kind, **message})
+        self._hear("client", json.dumps({"type": kind, **message}))
         self.session.frame(0.0, 1.0)
         self.page.sync(0.6)
 

@@ -10,10 +10,12 @@ import viser
 import websockets.sync.client
 from websockets.asyncio.server import serve
 
+from geswarm.app.protocol.base import FrameTime, NoticeMessage, Request
+from geswarm.app.protocol.reading import MAX_MESSAGE_BYTES, Reader
 from geswarm.app.server import channel as channel_module
 from geswarm.app.server import gate
 from geswarm.app.server.access import Access
-from geswarm.app.server.channel import MAX_MESSAGE_BYTES, Channel
+from geswarm.app.server.channel import Channel
 from geswarm.app.server.gate import ServerError, open_server
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
@@ -168,6 +170,16 @@ def test_no_client_can_open_a_share_tunnel(server, monkeypatch):
 # Messages
 
 
+class Note(Request, frozen=True):
+    p: float = 0.0
+    text: str = ""
+
+
+def told(text):
+    """What a page reads of a notice."""
+    return {"type": "notice", "level": "info", "text": text}
+
+
 @pytest.fixture
 def arrived():
     return []
@@ -176,7 +188,9 @@ def arrived():
 @pytest.fixture
 def channel(arrived):
     channel = Channel(
+        Reader({"note": Note, "frame_time": FrameTime}),
         on_message=lambda client, message: arrived.append((client.number, message)),
+        on_refused=lambda client, why: channel.send(client, NoticeMessage("error", why)),
         on_connect=lambda client: channel.welcome(client),
     )
     return channel
@@ -189,18 +203,18 @@ def welcome(channel):
 
 def test_messages_go_both_ways(server, channel, arrived):
     with connect(server) as one, connect(server) as two:
-        one.send('{"type": "edit", "p": 0.5}')
+        one.send('{"type": "note", "p": 0.5}')
         wait_until(lambda: arrived and welcome(channel) == 2)
         number, message = arrived[0]
-        assert message == {"type": "edit", "p": 0.5}
+        assert message == Note(0.5)
         sender = next(client for client in channel.clients if client.number == number)
-        channel.send(sender, {"type": "rules", "name": "ä"})
-        channel.broadcast({"type": "all"})
-        assert [receive(one), receive(one)] == [{"type": "rules", "name": "ä"}, {"type": "all"}]
-        assert receive(two) == {"type": "all"}
+        channel.send(sender, NoticeMessage("info", "ä"))
+        channel.broadcast(NoticeMessage("info", "all"))
+        assert [receive(one), receive(one)] == [told("ä"), told("all")]
+        assert receive(two) == told("all")
     wait_until(lambda: not channel.clients)
-    channel.send(sender, {"type": "late"})
-    channel.broadcast({"type": "late"})
+    channel.send(sender, NoticeMessage("info", "late"))
+    channel.broadcast(NoticeMessage("info", "late"))
 
 
 @pytest.mark.parametrize(
@@ -208,14 +222,18 @@ def test_messages_go_both_ways(server, channel, arrived):
     [
         ("{", "not readable"),
         ("[1]", "expected a JSON object, got [1]"),
-        ('{"p": NaN}', "not readable"),
-        ('{"p": 1e999}', "not readable"),
-        ('{"name": "\\ud800"}', "not readable"),
-        ("[" * 100_000, "not readable"),
+        ('{"type": "note", "p": NaN}', "not readable"),
+        ('{"type": "note", "p": 1e999}', "note.p: number out of range"),
+        ('{"type": "note", "text": "\\ud800"}', "not readable"),
+        ("[" * 100_000, "expected a JSON object: Expected `object`, got `array`"),
+        ("{}", "unknown message None; expected one of note"),
+        ('{"type": "dance"}', "unknown message 'dance'; expected one of note"),
+        ('{"type": "note", "q": 1}', "note: unknown field 'q'; expected p or text"),
+        ('{"type": "note", "p": "x"}', "note.p: expected a number, got 'x'"),
         (b"\x00", "binary"),
         (json.dumps({"text": "x" * MAX_MESSAGE_BYTES}), f"at most {MAX_MESSAGE_BYTES}"),
     ],
-    ids=["cut", "array", "nan", "infinity", "surrogate", "deep", "binary", "long"],
+    ids=lambda value: str(value)[:30],
 )
 def test_bad_message_is_answered_and_the_next_one_read(server, arrived, bad, why):
     with connect(server) as page:
@@ -224,13 +242,14 @@ def test_bad_message_is_answered_and_the_next_one_read(server, arrived, bad, why
         assert (answer["type"], answer["level"]) == ("notice", "error")
         assert why in answer["text"]
         assert "Traceback" not in answer["text"]
-        page.send('{"type": "fine"}')
+        page.send('{"type": "note"}')
         wait_until(lambda: arrived)
-        assert [message for _, message in arrived] == [{"type": "fine"}]
+        assert [message for _, message in arrived] == [Note()]
 
 
 def test_longest_message_is_read(server, arrived):
-    message = {"text": "x" * (MAX_MESSAGE_BYTES - len('{"text": ""}'))}
+    rest = len('{"type": "note", "text": ""}')
+    message = {"type": "note", "text": "x" * (MAX_MESSAGE_BYTES - rest)}
     with connect(server) as page:
         page.send(json.dumps(message))
         wait_until(lambda: arrived)
@@ -243,15 +262,15 @@ def test_fault_of_the_app_is_logged_and_told(server, channel, caplog):
     channel.on_message = fail
     with connect(server) as page:
         for _ in range(2):
-            page.send("{}")
+            page.send('{"type": "note"}')
             assert "failed inside the app" in receive(page)["text"]
     assert "ZeroDivisionError" in caplog.text
 
 
 def test_page_is_greeted(server, channel):
-    channel.on_connect = lambda client: channel.send(client, {"type": "hello"})
+    channel.on_connect = lambda client: channel.send(client, NoticeMessage("info", "hello"))
     with connect(server) as page:
-        assert receive(page) == {"type": "hello"}
+        assert receive(page) == told("hello")
 
 
 def test_newer_live_message_replaces_an_unsent_one(server, channel):
@@ -266,10 +285,10 @@ def test_newer_live_message_replaces_an_unsent_one(server, channel):
         server.get_event_loop().call_soon_threadsafe(hold)
         assert entered.wait(20)
         for number in range(100):
-            channel.broadcast({"type": "live", "number": number}, live=True)
-        channel.broadcast({"type": "last"})
+            channel.broadcast(NoticeMessage("info", str(number)), live=True)
+        channel.broadcast(NoticeMessage("info", "last"))
         released.set()
-        assert [receive(page), receive(page)] == [{"type": "live", "number": 99}, {"type": "last"}]
+        assert [receive(page), receive(page)] == [told("99"), told("last")]
 
 
 def test_stuck_page_is_cut_off_and_slows_no_other(server, channel, monkeypatch):
@@ -284,8 +303,9 @@ def test_stuck_page_is_cut_off_and_slows_no_other(server, channel, monkeypatch):
             sent = 0
             while len(channel.clients) == 2:
                 assert sent < 500
-                channel.broadcast({"number": sent, "padding": "x" * 200_000})
-                assert receive(page)["number"] == sent
+                text = f"{sent} {'x' * 200_000}"
+                channel.broadcast(NoticeMessage("info", text))
+                assert receive(page)["text"] == text
                 sent += 1
 
 

@@ -15,6 +15,7 @@ from geswarm.app.state.journal import Journal, journal_directory
 from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
+from tests.app.wire import typed
 from tests.robustness.test_faults import fill, small_disk
 
 EVO8, HAND_CODED = load_preset("evo8"), load_preset("hand-coded")
@@ -181,7 +182,7 @@ def test_every_edit_is_kept_until_it_is_saved_or_taken_back(session, tmp_path):
     def kept():
         return {text for text in written(tmp_path) if text and "EVO 8" in text}
 
-    session.edit(R1_OFF)
+    session.edit(typed(R1_OFF))
     wait_until(lambda: any("enabled: false" in text for text in kept()))
     session.undo()
     wait_until(lambda: not kept())
@@ -189,7 +190,7 @@ def test_every_edit_is_kept_until_it_is_saved_or_taken_back(session, tmp_path):
     wait_until(kept)
     session.saved()
     wait_until(lambda: not kept())
-    session.edit({"do": "remove_rule", "rule": 1})
+    session.edit(typed({"do": "remove_rule", "rule": 1}))
     wait_until(kept)
     session.load_preset("hand-coded")
     wait_until(lambda: not kept())

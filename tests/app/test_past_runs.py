@@ -7,6 +7,7 @@ from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
+from tests.app.wire import typed
 
 from .test_session import HALF_P, PAPER
 
@@ -97,7 +98,7 @@ def test_a_run_that_has_not_begun_is_not_kept(session):
 def test_a_run_gone_back_to_follows_the_rules_as_they_are_now(session):
     go(session, 500)
     session.reset()
-    session.edit(HALF_P)
+    session.edit(typed(HALF_P))
     session.take_back_reset()
     assert session.world.steps == 500
     assert session.world.rule_set.rules == session.document.rule_set.rules

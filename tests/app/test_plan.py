@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 import pytest
 
-from geswarm.app.state.plan import Plan, PlanError, preset_of
+from geswarm.app.state.plan import RunPlan, RunPlanError, preset_of
 from geswarm.ge import PRESETS, Settings
 from geswarm.rules import RuleSet, apply_edit, load_preset, parse_text
 from geswarm.sim import load_scenario
@@ -18,7 +18,7 @@ def frozen(plan, rule_set):
 
 
 def test_a_preset_fills_all_values_and_changes_are_told():
-    plan = Plan().with_value("mutation", 0.2).with_preset("modern")
+    plan = RunPlan().with_value("mutation", 0.2).with_preset("modern")
     assert plan.values == asdict(Settings.preset("modern"))
     assert plan.changed == []
     plan = plan.with_value("mutation", 0.2).with_value("seed", 7)
@@ -43,24 +43,24 @@ def test_a_preset_fills_all_values_and_changes_are_told():
     ],
 )
 def test_what_cannot_be_used_is_told_at_its_name(name, value, message):
-    plan = Plan().with_value(name, value)
+    plan = RunPlan().with_value(name, value)
     findings = plan.findings(EVO8)
     assert list(findings) == [name]
     assert message in findings[name]
-    with pytest.raises(PlanError, match=f"^{name}: expected"):
+    with pytest.raises(RunPlanError, match=f"^{name}: expected"):
         plan.config(PAPER, EVO8)
 
 
 @pytest.mark.parametrize(("name", "value"), [("luck", 1), ("seed", None), ("seed", [1])])
 def test_what_is_no_value_is_refused(name, value):
-    with pytest.raises(PlanError, match=name):
-        Plan().with_value(name, value)
-    with pytest.raises(PlanError, match="preset"):
-        Plan().with_preset("luck")
+    with pytest.raises(RunPlanError, match=name):
+        RunPlan().with_value(name, value)
+    with pytest.raises(RunPlanError, match="preset"):
+        RunPlan().with_preset("luck")
 
 
 def test_frozen_rules_stay_frozen_while_the_table_is_edited():
-    plan = Plan().freezing(EVO8.rules[0], True).freezing(EVO8.rules[2], True)
+    plan = RunPlan().freezing(EVO8.rules[0], True).freezing(EVO8.rules[2], True)
     assert frozen(plan, EVO8) == [0, 2]
     for edit, expected in (
         ({"do": "move_rule", "rule": 2, "to": 0}, [0, 1]),
@@ -75,7 +75,7 @@ def test_frozen_rules_stay_frozen_while_the_table_is_edited():
 
 
 def test_frozen_rules_come_first_in_what_enters_the_first_generation():
-    plan = Plan().freezing(EVO8.rules[2], True)
+    plan = RunPlan().freezing(EVO8.rules[2], True)
     assert plan.first(EVO8) is None
     first = plan.with_value("from_table", True).first(EVO8)
     assert first.rules == tuple(EVO8.rules[i] for i in (2, 0, 1, 3))
@@ -83,10 +83,10 @@ def test_frozen_rules_come_first_in_what_enters_the_first_generation():
 
 def test_rules_that_cannot_enter_are_a_finding():
     odd = parse_text("rule do p = 0.15, RANDOM_WALK")
-    findings = Plan().with_value("from_table", True).findings(odd)
+    findings = RunPlan().with_value("from_table", True).findings(odd)
     assert "the nearest is 0.1" in findings["from_table"]
-    assert Plan().with_value("from_table", True).findings(RuleSet())["from_table"]
-    assert Plan().findings(odd) == {}
+    assert RunPlan().with_value("from_table", True).findings(RuleSet())["from_table"]
+    assert RunPlan().findings(odd) == {}
 
 
 def test_the_nearest_preset_is_told_whatever_the_sizes():

@@ -11,6 +11,7 @@ from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
 from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.sim import load_scenario
+from tests.app.wire import typed
 
 from .test_dashboard import PATIENCE, wait_until
 from .test_session import HALF_P
@@ -63,7 +64,7 @@ def test_the_rules_are_told_from_when_they_hold(dashboard):
     session.post(lambda _: dashboard.recorder.start(dashboard.server, client))
     dashboard._frame(0.1)
     session._advance(100, budget=60.0)
-    session.post(lambda session: (session.play(), session.edit(HALF_P)))
+    session.post(lambda session: (session.play(), session.edit(typed(HALF_P))))
     dashboard._frame(0.2)
     assert session.world.steps > 100
     assert [passage.start for passage in dashboard.recorder.passages] == [0.0, 10.0]

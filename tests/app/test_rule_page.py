@@ -1,5 +1,6 @@
 """What the rule table page asks for and is told, without a socket."""
 
+import json
 import time
 
 import pytest
@@ -10,12 +11,13 @@ from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
 from geswarm.rules import format_text, load_preset, parse_yaml
 from geswarm.sim import load_scenario
+from tests.app.wire import as_read
 
 EVO8 = load_preset("evo8")
 
 
 class Recorder:
-    """Stands in for the channel: keeps what would be sent."""
+    """Stands in for the channel: keeps what would be sent, as pages read it."""
 
     clients = ()
 
@@ -23,13 +25,13 @@ class Recorder:
         self.messages = []
 
     def send(self, _client, message, *, live=False):
-        self.messages.append(message)
+        self.messages.append(as_read(message))
 
     def welcome(self, client):
         pass
 
     def broadcast(self, message, *, live=False):
-        self.messages.append(message)
+        self.messages.append(as_read(message))
 
     def of(self, kind):
         return [message for message in self.messages if message["type"] == kind]
@@ -40,12 +42,14 @@ def page():
     quick = load_scenario("paper").with_changes(duration=50.0)
     session = Session(quick, EVO8, EvolutionThread(workers=1))
     page = RulePage(session)
-    receive, greet = page.channel.on_message, page.channel.on_connect
+    hear, greet = page.channel.hear, page.channel.on_connect
     page.channel = Recorder()
     client = Client(1, None)
 
     def say(**message):
-        receive(client, {"version": session.document.version, **message})
+        if message.get("type") in ("edit", "undo", "redo", "set_text"):
+            message = {"version": session.document.version, **message}
+        hear(client, json.dumps(message))
         session.frame(0.0, 1.0)
 
     page.say = say

@@ -15,6 +15,7 @@ from geswarm.evolution import RunConfig
 from geswarm.ge import Settings
 from geswarm.rules import EditError, RuleSetError, format_yaml, load_preset
 from geswarm.sim import load_scenario
+from tests.app.wire import typed
 
 PAPER = load_scenario("paper")
 HALF_P = {
@@ -92,7 +93,7 @@ def test_an_edit_acts_on_the_running_swarm_without_reset(session):
     session.play()
     run(session, 5.0)
     before = session.world.state
-    session.edit(HALF_P)
+    session.edit(typed(HALF_P))
     after = session.world.state
     assert session.world.rule_set.rules[0].actions[0].p == 0.5
     assert after.steps == before.steps
@@ -106,19 +107,19 @@ def test_an_edit_acts_on_the_running_swarm_without_reset(session):
 def test_undo_goes_all_the_way_back_and_a_new_edit_forgets_the_future(session):
     document = session.document
     for p in (0.1, 0.2, 0.3):
-        session.edit({**HALF_P, "element": {"p": p, "behaviour": "RANDOM_WALK"}})
+        session.edit(typed({**HALF_P, "element": {"p": p, "behaviour": "RANDOM_WALK"}}))
     for _ in range(5):
         session.undo()
     assert document.rule_set == load_preset("evo8")
     assert (document.can_undo, document.can_redo) == (False, True)
-    session.edit(HALF_P)
+    session.edit(typed(HALF_P))
     assert (document.can_undo, document.can_redo) == (True, False)
 
 
 def test_what_cannot_be_done_changes_nothing(session):
     version = session.document.version
     with pytest.raises(EditError):
-        session.edit({"do": "remove_rule", "rule": 9})
+        session.edit(typed({"do": "remove_rule", "rule": 9}))
     with pytest.raises(RuleSetError):
         session.load_text("rule do p = 7, PHOTOTAXIS", "mine.rules")
     with pytest.raises(RuleSetError):
@@ -146,7 +147,7 @@ def test_undo_takes_back_what_was_loaded_too(session):
 
 
 def test_commands_are_carried_out_by_the_next_frame(session):
-    session.post(lambda session: session.edit(HALF_P))
+    session.post(lambda session: session.edit(typed(HALF_P)))
     assert session.document.version == 1
     session.frame(0.0, budget=1.0)
     assert session.document.version == 2

@@ -11,6 +11,7 @@ from geswarm.app.state.rival import BEFORE, best_of
 from geswarm.app.state.session import Session
 from geswarm.rules import load_preset
 from geswarm.sim import World, load_scenario
+from tests.app.wire import typed
 
 from .test_session import HALF_P, PAPER, run
 
@@ -127,7 +128,7 @@ def test_only_what_there_is_can_be_compared_with(session):
     session.compare_with(best_of("run"))
     assert session.rival is None
     assert session.rival_problem == "'best of run' is no longer there to compare with"
-    session.edit(HALF_P)
+    session.edit(typed(HALF_P))
     assert BEFORE in session.rivals_offered()
     session.evolution.best = load_preset("hand-coded")
     session.evolution.directory = Path("runs/mine")
@@ -137,13 +138,13 @@ def test_only_what_there_is_can_be_compared_with(session):
 
 
 def test_the_version_before_the_edit_moves_on_with_every_edit(session):
-    session.edit(HALF_P)
+    session.edit(typed(HALF_P))
     session.compare_with(BEFORE)
     rival = session.rival.swarm.world
     assert rival.rule_set.rules == load_preset("evo8").rules
     session.play()
     run(session, 2.0)
-    session.edit({**HALF_P, "element": {"p": 0.25, "behaviour": "RANDOM_WALK"}})
+    session.edit(typed({**HALF_P, "element": {"p": 0.25, "behaviour": "RANDOM_WALK"}}))
     assert rival.rule_set.rules[0].actions[0].p == 0.5
     assert rival.steps == session.world.steps > 0
     session.undo()

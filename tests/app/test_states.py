@@ -12,6 +12,7 @@ from geswarm.app.state.session import Session
 from geswarm.app.state.states import MachineDrawer
 from geswarm.rules import StateMachine, load_preset, parse_text
 from geswarm.sim import World, load_scenario
+from tests.app.wire import as_read, typed
 
 EVO8, HAND_CODED = load_preset("evo8"), load_preset("hand-coded")
 PAPER = load_scenario("paper")
@@ -76,7 +77,7 @@ def test_a_session_draws_what_its_swarm_runs():
     session = Session(PAPER.with_changes(duration=50.0), EVO8, EvolutionThread(workers=1))
     try:
         drawn(session.machine, EVO8)
-        session.edit({"do": "set_comment", "rule": 0, "comment": "other words"})
+        session.edit(typed({"do": "set_comment", "rule": 0, "comment": "other words"}))
         assert session.machine.activity(session.world) is not None
         session.load(HAND_CODED)
         assert drawn(session.machine, HAND_CODED).machine == StateMachine.of(HAND_CODED)
@@ -89,7 +90,7 @@ def test_a_session_draws_what_its_swarm_runs():
 def test_what_pages_are_told_of_states_and_transitions(drawer):
     rule_set = parse_text("rule if ON_NEST == true do p = 0.1, WANT_OBJECT = false")
     drawer.draw(rule_set)
-    message = rule_messages.states_message(drawn(drawer, rule_set))
+    message = as_read(rule_messages.states_message(drawn(drawer, rule_set)))
     assert [state["means"] for state in message["states"]] == [
         "walking at random, WANT_OBJECT is false",
         "walking at random, WANT_OBJECT is true",
@@ -109,5 +110,5 @@ def test_what_pages_are_told_of_states_and_transitions(drawer):
     ]
     world = World(PAPER, rule_set, 1)
     world.step(5)
-    told = rule_messages.activity_message(drawer.activity(world), world)
+    told = as_read(rule_messages.activity_message(drawer.activity(world), world))
     assert (told["time"], told["swarm"], sum(told["robots"])) == (pytest.approx(0.5), 4, 4)

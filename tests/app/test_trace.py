@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from geswarm.app.scene.overlays import heat_map, trail_segments
-from geswarm.app.state.trace import SAMPLE_STEPS, TRAIL_SECONDS, Trace
+from geswarm.app.state.trace import SAMPLE_STEPS, TRAIL_SECONDS, PathTrace
 from geswarm.rules import load_preset
 from geswarm.sim import World, load_scenario
 
@@ -21,7 +21,7 @@ def run(world, trace, samples):
 
 
 def test_trails_end_at_the_robots_and_go_back_in_time(world):
-    trace = Trace(PAPER, world.state)
+    trace = PathTrace(PAPER, world.state)
     start = world.state
     run(world, trace, 3)
     trails = trace.trails()
@@ -37,7 +37,7 @@ def test_trails_end_at_the_robots_and_go_back_in_time(world):
 
 
 def test_a_robot_that_is_carried_leaves_no_line(world):
-    trace = Trace(PAPER, world.state)
+    trace = PathTrace(PAPER, world.state)
     run(world, trace, 2)
     world.move_robot(0, 2.0, 2.0)
     trace.record(world.state)
@@ -46,7 +46,7 @@ def test_a_robot_that_is_carried_leaves_no_line(world):
 
 
 def test_visits_are_counted_where_they_were(world):
-    trace = Trace(PAPER, world.state)
+    trace = PathTrace(PAPER, world.state)
     for x, y, row, column in ((-2.0, 2.0, 0, 0), (2.0, -2.0, -1, -1), (2.0, 2.0, 0, -1)):
         trace.restart(PAPER, world.state)
         for robot in range(4):
@@ -62,7 +62,7 @@ def test_visits_are_counted_where_they_were(world):
 
 def test_the_raster_of_a_large_arena_stays_small(world):
     wide = PAPER.with_changes(width=100.0, length=50.0)
-    assert Trace(wide, World(wide, load_preset("evo8")).state).visits.size < 45_000
+    assert PathTrace(wide, World(wide, load_preset("evo8")).state).visits.size < 45_000
 
 
 def test_heat_is_transparent_where_nobody_was():
@@ -76,7 +76,7 @@ def test_heat_is_transparent_where_nobody_was():
 
 
 def test_trails_fade(world):
-    trace = Trace(PAPER, world.state)
+    trace = PathTrace(PAPER, world.state)
     run(world, trace, 50)
     points, colours = trail_segments(trace.trails())
     assert points.shape == colours.shape

@@ -6,7 +6,7 @@ import time
 import pytest
 
 from geswarm.app.state.background import Newest
-from geswarm.app.state.verdict import RUNS, Question, Verdict
+from geswarm.app.state.verdict import RUNS, Judge, VerdictQuestion
 from geswarm.app.state.worth import WorthOfPieces, WorthQuestion
 from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import apply_edit, load_preset
@@ -26,7 +26,7 @@ def wait_until(condition, seconds=60):
 
 @pytest.fixture
 def verdict():
-    verdict = Verdict()
+    verdict = Judge()
     yield verdict
     verdict.close()
 
@@ -40,7 +40,7 @@ def worth():
 
 def test_the_verdict_is_that_of_a_plain_evaluation(verdict):
     edited = apply_edit(EVO8, {"do": "remove_rule", "rule": 2})
-    verdict.ask(Question(2, edited, EVO8, QUICK))
+    verdict.ask(VerdictQuestion(2, edited, EVO8, QUICK))
     wait_until(lambda: verdict.answer is not None and not verdict.answer.busy)
     samples = {sample.role: sample for sample in verdict.answer.samples}
     assert list(samples) == ["current", "before", "evo8", "hand-coded"]
@@ -54,16 +54,16 @@ def test_the_verdict_is_that_of_a_plain_evaluation(verdict):
 
 
 def test_without_an_edit_there_is_nothing_before(verdict):
-    verdict.ask(Question(1, EVO8, None, QUICK))
+    verdict.ask(VerdictQuestion(1, EVO8, None, QUICK))
     wait_until(lambda: verdict.answer is not None and not verdict.answer.busy)
     assert [sample.role for sample in verdict.answer.samples] == ["current", "evo8", "hand-coded"]
     assert verdict.answer.comparisons["evo8"].difference == 0
 
 
 def test_a_newer_question_cancels_the_older_one(verdict):
-    verdict.ask(Question(1, EVO8, None, LONG))
+    verdict.ask(VerdictQuestion(1, EVO8, None, LONG))
     time.sleep(0.1)
-    verdict.ask(Question(2, EVO8, None, QUICK))
+    verdict.ask(VerdictQuestion(2, EVO8, None, QUICK))
     wait_until(lambda: verdict.answer.question.version == 2 and not verdict.answer.busy)
     assert all(len(sample.collected) == RUNS for sample in verdict.answer.samples)
 

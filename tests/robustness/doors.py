@@ -16,7 +16,9 @@ import yaml
 from hypothesis import strategies as st
 
 from geswarm.app.panels.scenario_panel import VALUES
-from geswarm.app.server.channel import MessageError, parse_message
+from geswarm.app.protocol.base import Request
+from geswarm.app.protocol.pages import reader_of
+from geswarm.app.protocol.reading import MessageError
 from geswarm.evolution import RunConfig, RunConfigError
 from geswarm.ge import Grammar, GrammarError, Mapper, Settings
 from geswarm.rules import (
@@ -129,10 +131,11 @@ def as_utf8(text):
     return text.encode("utf-8", "replace").decode()
 
 
+_READER = reader_of("rules", watched=False)
+
+
 def read_message(raw):
-    message = parse_message(raw)
-    assert isinstance(message, dict)
-    json.dumps(message, allow_nan=False)
+    assert isinstance(_READER.read(raw), Request)
 
 
 def change_scenario(change):

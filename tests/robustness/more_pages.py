@@ -16,7 +16,6 @@ from geswarm.analysis.reproduction.studies import performance
 from geswarm.app.panels.evolution_page import EvolutionPage
 from geswarm.app.panels.experiments_messages import campaign_message
 from geswarm.app.panels.experiments_page import ExperimentsPage
-from geswarm.app.server.channel import MessageError, parse_message
 from geswarm.app.server.viser_messages import is_expected
 from geswarm.app.state.campaign_folder import CampaignFolder
 from geswarm.app.state.evolution import EvolutionThread
@@ -25,6 +24,7 @@ from geswarm.app.state.session import Session
 from geswarm.ge import StoreError
 from geswarm.rules import format_yaml
 from geswarm.sim import EvaluationStopped
+from tests.app.wire import as_read
 from tests.robustness import mutations
 from tests.robustness.doors import EVO8, MINE, Door, RefusedError, as_utf8
 from tests.robustness.pages import QUICK, Pages
@@ -54,25 +54,20 @@ def talk(make_page, raw_messages):
     session = Session(QUICK, EVO8, EvolutionThread(workers=1))
     session.campaigns.thread.start = lambda campaign: None  # would take minutes
     page = make_page(session)
-    receive, page.channel = page.channel.on_message, Pages()
-    refused = []
+    hear, page.channel = page.channel.hear, Pages()
     try:
         for raw in raw_messages:
             known, before = len(page.channel.refusals), state_of(session)
-            try:
-                receive("client", parse_message(raw))
-            except MessageError as error:
-                refused.append(str(error))
+            hear("client", raw)
             session.frame(0.0, 0.1)
-            for _, build in page._sources().values():
-                json.dumps(build(), allow_nan=False)
+            for _, build in page.sources().values():
+                as_read(build())
             if any(map(str.strip, page.channel.refusals[known:])):
                 assert state_of(session) == before
     finally:
         session.close()
-    refused += page.channel.refusals
-    if refused:
-        raise RefusedError("\n".join(refused))
+    if page.channel.refusals:
+        raise RefusedError("\n".join(page.channel.refusals))
 
 
 _EVOLUTION = (
@@ -185,7 +180,7 @@ def campaign_directory(files):
         parse_samples(files.get("data/performance.csv", b"").decode("utf-8"), CASES, 2)
     folder = CampaignFolder(Path())
     folder.scan()
-    json.dumps(campaign_message(folder.look("run"), ""), allow_nan=False)
+    as_read(campaign_message(folder.look("run"), ""))
     try:
         Campaign.at(directory).run(workers=1, stop=lambda: True)
     except EvaluationStopped:
