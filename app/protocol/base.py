@@ -82,13 +82,13 @@ class TypedRequest(Request, frozen=True):
             raise ValueError(f"value: expected at most {MAX_NAME} characters, got more")
 
 
-def kinds_in(module: ModuleType, base: type[Structure]) -> dict[str, type[Structure]]:
-    """The messages that a module defines, by what they are called; not what they have in common."""
+def kinds_in(module: ModuleType, below: type[Structure]) -> dict[str, type[Structure]]:
+    """The messages of a module below a class, by what they are called; only the last of a line."""
     return {
         str(one.__struct_config__.tag): one
         for one in vars(module).values()
         if isinstance(one, type)
-        and issubclass(one, base)
+        and issubclass(one, below)
         and one.__module__ == module.__name__
         and not one.__subclasses__()
     }

@@ -136,7 +136,7 @@ class _Writer:
             return " | ".join(f'"{value}"' for value in inside)
         if origin in (Union, UnionType):
             some = [one for one in inside if one not in (NoneType, msgspec.UnsetType)]
-            parts = list(dict.fromkeys(self.type_of(_bare(one)) for one in some))
+            parts = list(dict.fromkeys(self.type_of(one) for one in some))
             spelt = " | ".join(parts)
             if NoneType not in inside:
                 return spelt
@@ -148,12 +148,12 @@ class _Writer:
         if origin is tuple:
             item = self.type_of(inside[0])
             return f"({item})[]" if " | " in item and not item.startswith("[") else f"{item}[]"
-        return self.type_of(_bare(hint))
+        return self.type_of(hint)
 
     def name_of(self, one: type) -> str:
         """The name of a structure, which is written when its turn comes."""
-        if one is WholeRule:
-            return self.name_of(Rule)
+        if isinstance(stands_for := _STANDS_FOR.get(one), type):
+            return self.name_of(stands_for)
         if one not in self.named:
             self.named[one] = one.__name__
             if one in _STANDS_FOR:
@@ -178,10 +178,6 @@ def _fields(one: type) -> Iterator[tuple[str, Any, bool]]:
         return
     for info in msgspec.structs.fields(one):
         yield info.name, hints[info.name], not info.required
-
-
-def _bare(hint: Any) -> Any:
-    return get_args(hint)[0] if hasattr(hint, "__metadata__") else hint
 
 
 def _camel(kind: str) -> str:

@@ -6,7 +6,7 @@ from types import ModuleType
 from typing import Any
 
 from . import base, edits, evolution, evolution_requests, experiments, rule_requests, rules
-from .base import FrameTime, Request, Watch, kinds_in
+from .base import FrameTime, Request, Structure, Watch, kinds_in
 from .reading import Reader
 
 MODULES: dict[str, tuple[ModuleType, ...]] = {
@@ -18,9 +18,9 @@ MODULES: dict[str, tuple[ModuleType, ...]] = {
 """By page, which is a folder of `static`."""
 
 
-def kinds_of(page: str, base: type[base.Structure]) -> dict[str, type[Any]]:
+def kinds_of(page: str, below: type[Structure]) -> dict[str, type[Any]]:
     """All messages of a page below a class, by what they are called."""
-    return {kind: one for module in MODULES[page] for kind, one in kinds_in(module, base).items()}
+    return {kind: one for module in MODULES[page] for kind, one in kinds_in(module, below).items()}
 
 
 def reader_of(page: str, *, watched: bool) -> Reader[Request]:

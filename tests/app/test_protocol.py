@@ -9,12 +9,18 @@ from pathlib import Path
 import pytest
 
 import geswarm
+from geswarm.app.panels.evolution_page import EvolutionPage
+from geswarm.app.panels.experiments_page import ExperimentsPage
+from geswarm.app.panels.rule_page import RulePage
 from geswarm.app.protocol.base import Message, Request
 from geswarm.app.protocol.edits import Edit
 from geswarm.app.protocol.javascript import written
 from geswarm.app.protocol.pages import MODULES, kinds_of, reader_of
 from geswarm.app.protocol.reading import MessageError
-from geswarm.rules import BehaviourChange, Rule, StateChange, Term
+from geswarm.app.state.evolution import EvolutionThread
+from geswarm.app.state.session import Session
+from geswarm.rules import BehaviourChange, Rule, StateChange, Term, load_preset
+from geswarm.sim import load_scenario
 
 ROOT = Path(geswarm.__file__).resolve().parent.parent
 STATIC = ROOT / "static"
@@ -63,6 +69,20 @@ def test_a_name_of_the_dashboard_means_one_thing():
             names.update(found)
             own |= found if folder == "app" else set()
     assert [name for name in own if names[name] > 1] == []
+
+
+def test_everything_that_pages_ask_for_is_carried_out():
+    session = Session(load_scenario("paper"), load_preset("evo8"), EvolutionThread(workers=1))
+    try:
+        carried_out = {
+            "rules": RulePage(session)._carry_out,
+            "evolution": EvolutionPage(session).carry_out,
+            "experiments": ExperimentsPage(session).carry_out,
+        }
+    finally:
+        session.close()
+    for page, known in carried_out.items():
+        assert set(known) == set(kinds_of(page, Request).values())
 
 
 def edit(**fields):
