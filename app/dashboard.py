@@ -15,7 +15,7 @@ import viser
 from geswarm.cli import UsageError
 from geswarm.cli.stopping import compile_first
 from geswarm.rules import RuleSet, RuleSetError, load_rule_set
-from geswarm.sim import Scenario, ScenarioError, available_cores, load_scenario
+from geswarm.sim import Scenario, ScenarioError, available_cores, load_scenario, vocabulary_of
 
 from .panels.evolution_page import EvolutionPage
 from .panels.evolution_panel import EvolutionPanel
@@ -34,6 +34,7 @@ from .server.gate import open_server
 from .server.listening import ServerError
 from .state.evolution import EvolutionThread
 from .state.journal import Journal, journal_directory
+from .state.references import first_rules
 from .state.session import Session
 
 FRAME_SECONDS = 1 / 30
@@ -198,7 +199,9 @@ def run_dashboard(options: argparse.Namespace) -> int:
     """Serve the dashboard until Ctrl-C."""
     try:
         scenario = load_scenario(options.scenario or "paper")
-        rule_set = load_rule_set(options.rules or "evo8")
+        known = vocabulary_of(scenario)
+        given = options.rules
+        rule_set = load_rule_set(given, known) if given else first_rules(scenario)
     except (ScenarioError, RuleSetError) as error:
         raise UsageError(str(error)) from error
     compile_first("geswarm-ui: stopped")

@@ -14,6 +14,7 @@ from rich.progress import MofNCompleteColumn, Progress
 from geswarm.cli import UsageError
 from geswarm.cli.output import progress_columns
 from geswarm.cli.stopping import STOPPED_STATUS, compile_first, every, stop_on_signals
+from geswarm.evaluation import shown
 from geswarm.evolution import (
     ClusterError,
     EvaluationError,
@@ -45,16 +46,16 @@ def evolve_headless(options: argparse.Namespace) -> int:
         except (ClusterError, ScenarioError, SettingsError, StoreError) as error:
             raise UsageError(str(error)) from error
         resources.callback(run.close)
-        return _evolve_and_report(run, options.workers, executor, console)
+        return _evolve_and_report(run, options, executor, console)
 
 
 def _evolve_and_report(
-    run: EvolutionRun, workers: int | None, executor: Executor | None, console: Console
+    run: EvolutionRun, options: argparse.Namespace, executor: Executor | None, console: Console
 ) -> int:
     try:
         with stop_on_signals() as stop:
             compile_first(f"Stopped. {_how_to_resume(run)}")
-            _evolve(run, workers, executor, stop, console)
+            _evolve(run, options.workers, executor, stop, console)
     except (StoreError, EvaluationError) as error:
         console.print(f"geswarm-ui: {error}", markup=False, soft_wrap=True)
         console.print(_how_to_resume(run), markup=False, soft_wrap=True)
@@ -62,9 +63,13 @@ def _evolve_and_report(
     if not run.finished:
         console.print(f"Stopped. {_how_to_resume(run)}", markup=False, soft_wrap=True)
         return STOPPED_STATUS
+    objective, best = run.config.scenario.objective, run.directory / "best.yaml"
+    value = shown(objective.gain(run.history[-1].best_so_far))
+    written_for = run.best.scenario if run.best else ""  # foraging's rules do not say
+    elsewhere = f" --scenario {options.scenario or written_for}" if written_for else ""
     console.print(
-        f"Finished: {run.directory / 'best.yaml'} collected {run.history[-1].best_so_far:.1f} "
-        f"on average. See it: geswarm-ui --rules {run.directory / 'best.yaml'}",
+        f"Finished: {objective.label} of {best}: {value} on average. "
+        f"See it: geswarm-ui --rules {best}{elsewhere}",
         markup=False,
         soft_wrap=True,
     )
@@ -98,12 +103,13 @@ def _evolve(
     stop: threading.Event,
     console: Console,
 ) -> None:
-    settings = run.config.settings
+    settings, objective = run.config.settings, run.config.scenario.objective
     for remark in run.remarks:
         console.print(remark, markup=False, soft_wrap=True)
     console.print(
         f"{run.config.scenario.name}, seed {run.config.seed}: {settings.generations} generations "
-        f"of {settings.population}, {settings.evaluations} runs each, in {run.directory}",
+        f"of {settings.population}, {settings.evaluations} runs each, in {run.directory}; "
+        f"to {'maximise' if objective.maximise else 'minimise'} {objective.label}",
         markup=False,
         soft_wrap=True,
     )
@@ -117,11 +123,15 @@ def _evolve(
         task = progress.add_task("", total=settings.generations, completed=done, figures="")
         log_is_due = every(_LOG_SECONDS)
 
+        def fitness(gain: float) -> str:
+            return shown(objective.gain(gain))
+
         def show(record: GenerationRecord) -> None:
             rate = 1 / record.seconds if record.seconds else 0.0
-            fall = fall_in_words([one.best_so_far for one in run.history])
+            fall = fall_in_words([one.best_so_far for one in run.history], fitness)
             figures = (
-                f"best {record.best_so_far:.1f}{fall and f' ({fall})'}, mean {record.mean:.1f}, "
+                f"best {fitness(record.best_so_far)}{fall and f' ({fall})'}, "
+                f"mean {fitness(record.mean)}, "
                 f"invalid {record.invalid}, {rate:.2g} generations/s,"
             )
             progress.update(task, completed=record.generation, figures=figures)

@@ -11,8 +11,15 @@ BEHAVIOURS: tuple[Colour, ...] = (
     (250, 166, 10),  # PHOTOTAXIS: amber, to the light
     (31, 99, 222),  # ANTI-PHOTOTAXIS: blue, away from it
     (34, 178, 120),  # RANDOM_WALK: green
-    (140, 86, 200),
-    (120, 120, 120),
+    (195, 150, 255),  # lilac
+    (135, 75, 45),  # brown
+    (105, 255, 135),  # bright green
+    (120, 0, 255),  # violet
+    (240, 45, 0),  # red
+    (255, 180, 240),  # pale pink
+    (165, 30, 90),  # crimson
+    (135, 165, 75),  # olive
+    (180, 240, 195),  # mint
 )
 """LED colour of each behaviour code, told apart by the colour-blind too."""
 
@@ -28,15 +35,51 @@ POPULATION: tuple[Colour, ...] = (
 OBJECT: Colour = (236, 40, 160)
 LIGHT: Colour = (255, 214, 92)
 
-NEST: Colour = (186, 196, 226)
-SOURCE: Colour = (230, 212, 184)
 FLOOR: Colour = (232, 233, 234)
-"""Ground zones: pale, so that robots and objects stand out."""
+"""Of a floor of one colour: pale, so that robots and objects stand out."""
+
+FLOORS: dict[str, Colour] = {
+    "grey": (172, 175, 182),
+    "black": (34, 36, 42),
+    "white": (250, 250, 250),
+    "red": (206, 88, 78),
+    "green": (112, 176, 112),
+    "blue": (98, 134, 206),
+    "yellow": (236, 208, 96),
+}
+"""How the colours of a floor are shown that robots tell apart."""
+
+AREAS: dict[str, Colour] = {"nest": (186, 196, 226), "source": (230, 212, 184)}
+OTHER_AREAS: tuple[Colour, ...] = (
+    (192, 220, 194),
+    (226, 196, 212),
+    (188, 218, 224),
+    (224, 222, 180),
+    (210, 200, 228),
+    (226, 204, 192),
+)
+"""Tints of areas that are not painted: pale like the floor."""
 
 
 def behaviour_colour(code: int) -> Colour:
     """LED colour of a behaviour code; codes beyond the palette begin it again."""
     return BEHAVIOURS[code % len(BEHAVIOURS)]
+
+
+def between(one: Colour, other: Colour, part: float) -> Colour:
+    """The colour a part of the way from one to another."""
+    r, g, b = (round(a + part * (c - a)) for a, c in zip(one, other, strict=True))
+    return r, g, b
+
+
+def on_ground(ground: Colour) -> Colour:
+    """Of words on a ground: of its hue, darker on a pale one and paler on a dark one."""
+    mean = sum(ground) / 3
+    if mean < 130.0:
+        return between(ground, (255, 255, 255), 0.42)
+    darker = 0.8 if mean < 240.0 else 0.72
+    r, g, b = (max(0, min(255, round(darker * (mean + 1.9 * (c - mean))))) for c in ground)
+    return r, g, b
 
 
 def linear(colour: Colour) -> Colour:

@@ -30,8 +30,9 @@ from geswarm.sim import (
 from geswarm.sim.batch import Group
 from geswarm.sim.encoding import fails
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.program import compile_controllers
+from geswarm.sim.library import parts_of
 from geswarm.sim.startup import warm_up
+from geswarm.sim.tables import compile_controllers
 
 Report: TypeAlias = Callable[[str], None]
 
@@ -78,7 +79,7 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
         "generation_seconds": generation,
         "swarm": swarms,
         "mapping_genomes_per_second": _mapping(),
-        "cpu": _cpu(),
+        "cpu": processor(),
         "numba": numba.__version__,
     }
 
@@ -142,9 +143,10 @@ def _robot_steps() -> tuple[float, float]:
     """Nanoseconds per robot and control step: side by side, and interpreting one simulation."""
     scenario = load_scenario("paper")
     rule_sets = [load_preset(name) for name in _PRESETS]
-    tables = compile_controllers(rule_sets, fails(scenario))
+    parts = parts_of(scenario)
+    controllers = compile_controllers(rule_sets, fails(scenario, parts), parts)
     simulations = np.array([(lane % len(rule_sets), lane, 0, 0) for lane in range(LANES)])
-    group = Group(tables, scenario, simulations)
+    group = Group(controllers, scenario, simulations)
     worlds = [World(scenario, rules, seed=1) for rules in rule_sets]
     group_steps, world_steps = 10_000, 20_000
     wide, single = [], []
@@ -224,7 +226,7 @@ def _mapping() -> float:
     return len(genomes) / min(_cpu_seconds(map_all) for _ in range(_REPEATS))
 
 
-def _cpu() -> str:
+def processor() -> str:
     """The processor's name and the number of cores."""
     name = platform.processor() or platform.machine()
     try:

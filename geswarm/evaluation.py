@@ -12,7 +12,7 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules import RuleSet
-from geswarm.sim import Scenario, Simulation, Stop, evaluate
+from geswarm.sim import Objective, Scenario, Simulation, Stop, evaluate
 
 _RUNS_PER_CALL = 128  # between two reports of progress; fills the SIMD lanes of two threads
 
@@ -30,36 +30,58 @@ class Evaluation:
     """One rule set in one scenario, run after run.
 
     Attributes:
-        collected: Objects dropped in the nest, int64, shape (runs,); run i has the same random
-            streams for every rule set.
-        lost: Objects dropped elsewhere, the same shape.
+        objective: What was to be maximised or minimised.
+        fitness: Its values, float64, shape (runs,); run i has the same random streams for every
+            rule set.
+        measures: What was counted, by name, the same shape.
     """
 
-    collected: npt.NDArray[np.int64]
-    lost: npt.NDArray[np.int64]
+    objective: Objective
+    fitness: npt.NDArray[np.float64]
+    measures: Mapping[str, npt.NDArray[np.float64]]
 
     @property
     def mean(self) -> float:
-        """Mean of the collected objects."""
-        return float(self.collected.mean())
+        """Mean of the objective."""
+        return float(self.fitness.mean())
+
+    @property
+    def gains(self) -> npt.NDArray[np.float64]:
+        """The fitness of each run such that more is better, for comparisons."""
+        return self.objective.gain(self.fitness)
+
+    def figures(self) -> dict[str, float]:
+        """What tables show; sd is the sample standard deviation, `lost_mean` a foraging swarm's."""
+        figures = {
+            "mean": self.mean,
+            "sd": float(self.fitness.std(ddof=1)) if self.fitness.size > 1 else 0.0,
+            "median": float(np.median(self.fitness)),
+        }
+        lost = {"lost_mean": float(self.measures["lost"].mean())} if "lost" in self.measures else {}
+        return figures | lost
 
     def summary(self) -> dict[str, Any]:
-        """The runs and their figures, as JSON values; sd is the sample standard deviation."""
+        """The runs and their figures, as JSON values."""
+        collected = self.measures.get("collected")
         return {
-            "collected": self.collected.tolist(),
-            "mean": self.mean,
-            "sd": float(self.collected.std(ddof=1)) if self.collected.size > 1 else 0.0,
-            "median": float(np.median(self.collected)),
-            "lost_mean": float(self.lost.mean()),
+            "objective": self.objective.document(),
+            "fitness": self.fitness.tolist(),
+            "measures": {name: values.tolist() for name, values in self.measures.items()},
+            **({} if collected is None else {"collected": collected.astype(int).tolist()}),
+            **self.figures(),
         }
 
     def _repr_html_(self) -> str:
         """How notebooks show it: a table of its figures."""
-        figures = {"runs": float(self.collected.size), **self.summary()}
-        del figures["collected"]
+        figures = {"runs": float(self.fitness.size), **self.figures()}
         heads = "".join(f"<th>{name.replace('_', ', ')}</th>" for name in figures)
         cells = "".join(f"<td>{value:.5g}</td>" for value in figures.values())
         return f"<table><tr>{heads}</tr><tr>{cells}</tr></table>"
+
+
+def shown(value: float) -> str:
+    """A figure as tables show it: one decimal, or three digits if it is small."""
+    return f"{value:.1f}" if abs(value) >= 10.0 or value == 0.0 else f"{value:.3g}"
 
 
 def evaluate_rule_sets(
@@ -85,15 +107,19 @@ def evaluate_rule_sets(
     Raises:
         EvaluationStopped: `stop` returned True.
     """
-    total, counts = len(rule_sets) * runs, []
+    total, found = len(rule_sets) * runs, []
     for first in range(0, total, _RUNS_PER_CALL):
         part = [
             Simulation(table=at // runs, seed=seed, replicate=at % runs)
             for at in range(first, min(first + _RUNS_PER_CALL, total))
         ]
         result = evaluate(rule_sets, scenario, part, workers=workers, stop=stop)
-        counts.append(np.stack([result.collected, result.lost]))
+        found.append(np.stack([result.fitness, *result.measures.values()]))
         if on_progress:
             on_progress(first + len(part), total)
-    collected, lost = np.concatenate(counts, axis=1).reshape(2, len(rule_sets), runs)
-    return [Evaluation(*pair) for pair in zip(collected, lost, strict=True)]
+    names = tuple(result.measures)
+    values = np.concatenate(found, axis=1).reshape(-1, len(rule_sets), runs)
+    return [
+        Evaluation(scenario.objective, values[0, at], dict(zip(names, values[1:, at], strict=True)))
+        for at in range(len(rule_sets))
+    ]

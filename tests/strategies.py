@@ -59,5 +59,6 @@ documented_rule_sets = st.builds(
     name=prose,
     comment=prose,
     origin=origins,
+    scenario=prose,
 )
 """Rule sets as people keep them: with names, comments, origins and rules switched off."""

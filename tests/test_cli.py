@@ -30,8 +30,13 @@ def test_evaluate_prints_one_json_object_and_nothing_else(quick_scenario, capsys
     assert (document["runs"], document["seed"]) == (4, 7)
     first, second = document["results"]
     assert (first["rules"], second["rules"]) == ("hand-coded", "evo8")
-    assert set(first) == {"rules", "collected", "mean", "sd", "median", "lost_mean"}
+    assert document["objective"] == {"expression": "collected", "unit": "objects", "maximise": True}
+    figures = {"mean", "sd", "median", "lost_mean"}
+    assert set(first) == {"rules", "objective", "fitness", "measures", "collected", *figures}
+    assert set(first["measures"]) == {"picked", "collected", "lost"}
     assert len(first["collected"]) == 4
+    assert first["collected"] == first["fitness"] == first["measures"]["collected"]
+    assert all(type(number) is int for number in first["collected"])
     assert first["mean"] == sum(first["collected"]) / 4
     (comparison,) = document["comparisons"]
     assert set(comparison) == {"a", "b", "p_value", "effect"}
@@ -155,10 +160,7 @@ def test_rules_come_from_standard_input(monkeypatch, capsys):
         (["export", "evo8", "--to", "dot", "-o", "no/where"], "no/where: cannot be written"),
         (["export", "evo8", "--to", "dot", "-o", ""], ": cannot be written"),
         (["export", "evo8", "--to", "dot", "--strict"], "--strict goes with --to automode"),
-        (
-            ["export", "evo8", "--to", "dot", "--scenario", "paper"],
-            "--scenario goes with --to argos-lua",
-        ),
+        (["export", "evo8", "--to", "dot", "--experiment", "x"], "goes with --to argos-lua"),
         (["export", "evo8", "--to", "argos-lua", "--scenario", "moon"], "moon"),
         (["export", "evo8", "--to", "argos-lua", "--experiment", "x.argos"], "give it one with -o"),
         (

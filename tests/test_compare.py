@@ -25,9 +25,11 @@ def test_json_has_every_case_and_its_comparison_with_the_first(scenarios, capsys
         (rules, scenario) for scenario in scenarios for rules in ("evo8", "hand-coded")
     ]
     assert set(results[0]) == {
-        *("rules", "scenario", "collected", "mean", "sd", "median", "lost_mean"),
+        *("rules", "scenario", "objective", "fitness", "measures", "collected"),
+        *("mean", "sd", "median", "lost_mean"),
         *("p_value", "p_holm", "effect"),
     }
+    assert results[0]["objective"]["expression"] == "collected"
     assert results[0]["p_value"] is results[0]["p_holm"] is results[0]["effect"] is None
     found = [compare(results[at]["collected"], results[at - 1]["collected"]) for at in (1, 3)]
     assert [results[at]["p_value"] for at in (1, 3)] == [one.p_value for one in found]

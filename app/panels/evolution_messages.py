@@ -12,9 +12,9 @@ import numpy as np
 from geswarm import __version__
 from geswarm.evolution import Member
 from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual, fall_in_words
-from geswarm.rules import RuleSet, describe, load_preset
+from geswarm.rules import RuleSet, describe
 from geswarm.rules.text import format_rule
-from geswarm.sim import Scenario
+from geswarm.sim import Scenario, vocabulary_of
 
 from .. import palette
 from ..docstrings import explanations
@@ -67,14 +67,16 @@ def plan_message(plan: RunPlan, scenario: Scenario, rule_set: RuleSet) -> wire.P
         values=dict(plan.values),
         changed=tuple(plan.changed),
         idle=tuple(idle_settings(plan.values)),
-        findings=plan.findings(rule_set),
+        findings=plan.findings(scenario, rule_set),
         seed=plan.seed,
         from_table=plan.from_table,
         scenario=scenario.name,
         table=rule_set.name,
         rules=tuple(
             wire.TableRule(rule.comment or sentence, rule in frozen, rule.enabled)
-            for rule, sentence in zip(rule_set.rules, describe(rule_set), strict=True)
+            for rule, sentence in zip(
+                rule_set.rules, describe(rule_set, vocabulary_of(scenario)), strict=True
+            )
         ),
         moved=moved,
     )
@@ -144,15 +146,17 @@ def curves_message(runs: Runs) -> wire.CurvesMessage:
     look = runs.look
     history = [] if look is None else [look.history[at] for at in thinned(len(look.history))]
     references = runs.references if look is runs.shown_look else {}
-    titles = [(load_preset(name).name, mean) for name, mean in references.items()]
     return wire.CurvesMessage(
         run=look.directory.name if look else None,
+        label=look.config.scenario.objective.gain_label if look else "",
         reevaluated=look is not None and look.config.settings.reevaluate_elites,
         generation=tuple(record.generation for record in history),
         best_so_far=tuple(_short(record.best_so_far) for record in history),
         best=tuple(_short(record.best) for record in history),
         mean=tuple(_short(record.mean) for record in history),
-        references=tuple(wire.ReferenceLevel(name, _short(mean)) for name, mean in titles),
+        references=tuple(
+            wire.ReferenceLevel(name, _short(mean)) for name, mean in references.items()
+        ),
         marks=tuple(wire.CurveMark(**asdict(mark)) for mark in look.marks) if look else (),
     )
 
@@ -297,11 +301,12 @@ def _phase(summary: RunSummary) -> Phase:
 def chosen_message(chosen: Chosen | None) -> wire.ChosenMessage:
     """The individual looked at and its rules, in the rule language and as sentences."""
     rule_set = chosen.rule_set if chosen else RuleSet()
+    sentences = describe(rule_set, chosen.vocabulary) if chosen else []
     individual = None
     if chosen:
         place = (chosen.run, chosen.generation, chosen.key)
         individual = wire.ChosenIndividual(*place, chosen.fitness)
-    rules = zip(rule_set.rules, describe(rule_set), strict=True)
+    rules = zip(rule_set.rules, sentences, strict=True)
     return wire.ChosenMessage(
         individual=individual,
         rules=tuple(wire.ReadRule(format_rule(rule), sentence) for rule, sentence in rules),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -13,7 +13,7 @@ from viser._gui_handles import GuiProgressBarHandle
 
 from geswarm.ge import GenerationRecord, fall_in_words
 
-from ..state.evolution import REFERENCES, EvolutionThread, Phase
+from ..state.evolution import EvolutionThread, Phase
 from ..state.runs import Runs
 from ..state.session import Session
 
@@ -22,9 +22,9 @@ _BEST = ("#0f62d6", 2.5, uplot.Series())
 _CURVES = (
     ("best of generation", "#7aa7e8", 1.0, uplot.Series()),
     ("mean", "#8a8f98", 1.5, uplot.Series()),
-    ("hand-coded", "#c2410c", 1.5, _DASHED),
-    ("EVO 8", "#15803d", 1.5, _DASHED),
 )
+_REFERENCES = ("#15803d", "#c2410c")
+"""Colours of the references, of which there are at most so many."""
 _FONT = "11px system-ui, sans-serif"
 _WHOLE = tuple(float(size * 10**power) for power in range(6) for size in (1, 2, 5))
 """Distances between two ticks of the generations."""
@@ -51,7 +51,7 @@ class EvolutionPanel:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._shown: tuple[object, ...] = ()
-        self._reevaluated = False
+        self._drawn: tuple[object, ...] = ()
 
     def build(self, gui: viser.GuiApi) -> None:
         """Make the widgets in the present container."""
@@ -89,7 +89,7 @@ class EvolutionPanel:
         if shown == self._shown:
             return
         self._shown = shown
-        findings = plan.findings(rule_set)
+        findings = plan.findings(self.session.scenario, rule_set)
         handles.status.content = status_html(runs, list(findings))
         handles.start.disabled = bool(findings) or campaign
         handles.start.visible = not evolution.active
@@ -101,13 +101,14 @@ class EvolutionPanel:
         if evolution.generations:
             done = 100.0 * len(evolution.history) / evolution.generations
             handles.progress.value = done  # type: ignore[misc]  # viser types it read-only
-        drawn = bool(history) and len(references) == len(REFERENCES)
-        if drawn:
-            if runs.reevaluated != self._reevaluated:
-                self._reevaluated = runs.reevaluated
-                handles.chart.series = series(runs.reevaluated)
+        if history:
+            drawn = (runs.reevaluated, tuple(references), runs.label)
+            if drawn != self._drawn:
+                self._drawn = drawn
+                handles.chart.axes = axes(runs.label)
+                handles.chart.series = series(runs.reevaluated, references)
             handles.chart.data = curves(history, references)
-        handles.chart.visible = drawn
+        handles.chart.visible = bool(history)
 
 
 def begin(session: Session) -> None:
@@ -117,7 +118,7 @@ def begin(session: Session) -> None:
     """
     if session.campaigns.thread.active:
         return
-    if not session.runs.plan.findings(session.document.rule_set):
+    if not session.runs.plan.findings(session.scenario, session.document.rule_set):
         session.runs.start(session.scenario)
 
 
@@ -135,8 +136,8 @@ def pause_or_go_on(evolution: EvolutionThread) -> None:
         evolution.pause()
 
 
-def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
-    """The fitness curves, hidden as long as there is nothing to draw."""
+def axes(label: str) -> tuple[uplot.Axis, uplot.Axis]:
+    """Generations, and what the curves are of."""
 
     def axis(label: str, size: float) -> uplot.Axis:
         return uplot.Axis(
@@ -149,11 +150,16 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
             ticks={"size": 4},
         )
 
+    return {**axis("generation", 24), "incrs": _WHOLE}, axis(label, 40)
+
+
+def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
+    """The fitness curves, hidden as long as there is nothing to draw."""
     return gui.add_uplot(
-        data=tuple(np.zeros(1) for _ in series(False)),
-        series=series(False),
+        data=tuple(np.zeros(1) for _ in series(False, {})),
+        series=series(False, {}),
         scales={"x": uplot.Scale(time=False)},
-        axes=({**axis("generation", 24), "incrs": _WHOLE}, axis("objects collected", 32)),
+        axes=axes(""),
         legend=uplot.Legend(live=False),
         aspect=1.35,
         padding=(8, 8, 0, 0),  # px: room for half of the highest number
@@ -161,18 +167,31 @@ def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
     )
 
 
-def series(reevaluated: bool) -> tuple[uplot.Series, ...]:
+def series(reevaluated: bool, references: Collection[str]) -> tuple[uplot.Series, ...]:
     """What the chart shows.
 
     Args:
         reevaluated: The best is evaluated again and again, so that its curve can fall.
+        references: Their titles.
     """
+    names = [*references, *("" for _ in _REFERENCES)]
     best = "best, re-evaluated" if reevaluated else "best so far"
     return (
         uplot.Series(label="generation"),
         *(
             uplot.Series(label=label, stroke=colour, width=width, points={"show": False}, **dash)
             for label, colour, width, dash in ((best, *_BEST), *_CURVES)
+        ),
+        *(
+            uplot.Series(
+                label=name,
+                stroke=colour,
+                width=1.5,
+                points={"show": False},
+                show=bool(name),
+                **_DASHED,
+            )
+            for name, colour in zip(names, _REFERENCES, strict=False)
         ),
     )
 
@@ -185,7 +204,8 @@ def curves(
         np.array([getattr(record, name) for record in history], dtype=np.float64)
         for name in ("generation", "best_so_far", "best", "mean")
     ]
-    lines = [np.full(len(history), references[name]) for name in REFERENCES]
+    levels = [*references.values(), *(history[0].mean for _ in _REFERENCES)]
+    lines = [np.full(len(history), level) for level in levels[: len(_REFERENCES)]]
     return (*columns, *lines)
 
 
@@ -202,11 +222,11 @@ def status_html(runs: Runs, findings: list[str]) -> str:
     elif not runs.shows_present:
         text = _opened(runs)
     elif evolution.phase is Phase.IDLE:
-        text = "Evolves foraging rules in the scenario of the arena, while the swarm goes on."
+        text = "Evolves rules in the scenario of the arena, while the swarm goes on."
     elif evolution.phase is Phase.FAILED:
         text = f"Evolution failed: {evolution.error}"
     elif not history:
-        text = "Running hand-coded and EVO 8 for comparison…"
+        text = "Running what evolved rules are compared with…"
     else:
         done = f"Generation {len(history)} of {evolution.generations}, {evolution.phase.value}"
         text = f"{done}: {_figures(history)}"

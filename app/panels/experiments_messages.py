@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any, cast
+from typing import cast
+
+from geswarm.analysis.compared import Compared
+from geswarm.sim import Scenario
 
 from ..protocol import experiments as wire
 from ..state.campaign_folder import CampaignLook, CampaignSummary
@@ -49,15 +52,34 @@ def compared_message(progress: Progress | None) -> wire.ComparedMessage:
         seed=compared.seed,
         against=compared.against,
         explanation=compared.explanation,
-        scenarios=_by_scenario(progress.document),
+        scenarios=_by_scenario(compared),
     )
 
 
-def _by_scenario(document: dict[str, Any]) -> tuple[wire.ScenarioResults, ...]:
-    scenarios: dict[str, list[wire.CaseResult]] = {}
-    for result in document["results"]:
-        scenarios.setdefault(result["scenario"], []).append(wire.CaseResult(**result))
-    return tuple(wire.ScenarioResults(name, tuple(found)) for name, found in scenarios.items())
+def _by_scenario(compared: Compared) -> tuple[wire.ScenarioResults, ...]:
+    scenarios: dict[Scenario, list[wire.CaseResult]] = {}
+    for case, evaluation in compared.samples.items():
+        contrast = compared.contrasts.get(case)
+        figures = evaluation.figures()
+        scenarios.setdefault(case.scenario, []).append(
+            wire.CaseResult(
+                rules=case.rules,
+                scenario=case.scenario.name,
+                fitness=tuple(evaluation.fitness.tolist()),
+                mean=figures["mean"],
+                sd=figures["sd"],
+                median=figures["median"],
+                p_value=contrast.comparison.p_value if contrast else None,
+                p_holm=contrast.p_holm if contrast else None,
+                effect=contrast.comparison.effect if contrast else None,
+            )
+        )
+    return tuple(
+        wire.ScenarioResults(
+            where.name, where.objective.label, where.objective.maximise, tuple(found)
+        )
+        for where, found in scenarios.items()
+    )
 
 
 def draft_message(campaigns: Campaigns) -> wire.DraftMessage:

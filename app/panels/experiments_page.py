@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 from geswarm.analysis.reproduction import CampaignError
-from geswarm.analysis.reproduction.results import format_samples
 from geswarm.rules import RuleSetError
 
 from ..protocol import experiments as wire
@@ -66,7 +65,7 @@ class ExperimentsPage(WatchedPage):
         compared, document = progress.compared, progress.document
         make: dict[str, Callable[[], str]] = {
             "comparison.html": compared.page,
-            "comparison.csv": lambda: format_samples(compared.samples),
+            "comparison.csv": compared.csv,
             "comparison.json": lambda: json.dumps(document),
         }
         return MadeFile(Path(name).suffix, make[name]().encode()) if name in make else None

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 
 import viser
 
-from geswarm.rules import FORAGING, RuleSet
-from geswarm.sim import WorldState
+from geswarm.rules import RuleSet
+from geswarm.rules.model import Value, format_value
+from geswarm.sim import World
 
 from .. import palette
 from ..state.session import Session
 from .widgets import Mirror
 
-_TRUE, _FALSE = "#0f8a4f", "#8a8f98"
+_SOME, _NONE = "#0f8a4f", "#8a8f98"
 
 
 @dataclass
@@ -58,44 +60,38 @@ class InspectorPanel:
         if session.selected is None:
             return
         handles.folder.label = f"Robot {session.selected + 1}"
-        text = robot_html(session.world.state, session.selected, session.document.rule_set)
+        text = robot_html(session.world, session.selected, session.document.rule_set)
         if text != self._shown:
             self._shown = handles.text.content = text
 
 
-def robot_html(state: WorldState, robot: int, rule_set: RuleSet) -> str:
+def robot_html(world: World, robot: int, rule_set: RuleSet) -> str:
     """What there is to know of a robot, as HTML."""
-    code = int(state.behaviour[robot])
-    colour = palette.css(palette.behaviour_colour(code))
+    state = world.state
+    colour = palette.css(palette.behaviour_colour(int(state.behaviour[robot])))
     behaviour = (
         f'<span style="display:inline-block;width:.75em;height:.75em;border-radius:50%;'
         f'background:{colour};margin-right:.4em"></span>'
-        f"<b>{escape(FORAGING.behaviours[code].name)}</b>"
+        f"<b>{escape(str(state.behaviours[state.instance[robot]]))}</b>"
     )
     heading = math.degrees(float(state.theta[robot]))
-    rows = (
+    rows = [
         ("behaviour", behaviour),
-        (
-            "perceives",
-            _bits(int(state.percepts[robot]), [item.name for item in FORAGING.preconditions]),
-        ),
-        (
-            "internal states",
-            _bits(
-                int(state.internal_states[robot]), [item.name for item in FORAGING.internal_states]
-            ),
-        ),
-        ("carries", "an object" if state.carried[robot] else "nothing"),
+        ("perceives", _values(world.perceived(int(state.percepts[robot])))),
+        ("internal states", _values(world.internal_states(int(state.internal_states[robot])))),
         ("last rule", last_rule_html(int(state.last_rule[robot]), rule_set)),
         (
             "place",
             f"{place(float(state.x[robot]), float(state.y[robot]))}<br>heading {compass(heading)}",
         ),
-    )
+    ]
+    if world.scenario.objects:
+        rows.insert(3, ("carries", "an object" if state.carried[robot] else "nothing"))
     cells = "".join(
         '<tr style="vertical-align:top"><td style="opacity:.65;padding:.15em .8em .15em 0;'
         f'white-space:nowrap">{escape(label)}</td><td style="padding:.15em 0">{value}</td></tr>'
         for label, value in rows
+        if value
     )
     return (
         '<div style="padding:.2em .9em .4em;font-size:.85em;line-height:1.35;'
@@ -134,10 +130,11 @@ def compass(degrees: float) -> str:
     return f"{round(bearing) % 360}° ({names[round(bearing / 45.0) % 8]})"
 
 
-def _bits(bits: int, names: list[str]) -> str:
-    """One line for each name: true or false."""
+def _values(values: Mapping[str, Value]) -> str:
+    """One line for each name; what is false, or nothing, is pale."""
     return "<br>".join(
-        f'{escape(name)} <b style="color:{_TRUE if bits >> bit & 1 else _FALSE}">'
-        f"{'true' if bits >> bit & 1 else 'false'}</b>"
-        for bit, name in enumerate(names)
+        f"{escape(name if name.isupper() else name.replace('_', ' '))} "
+        f'<b style="color:{_SOME if value else _NONE}">'
+        f"{escape(format_value(value))}</b>"
+        for name, value in values.items()
     )

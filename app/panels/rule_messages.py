@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
-from typing import cast
 
 import numpy as np
 from msgspec import UNSET
 
 from geswarm.rules import (
-    FORAGING,
     Finding,
     RuleSet,
     Simplification,
+    Vocabulary,
     describe,
     format_text,
-    load_preset,
-    preset_names,
 )
 from geswarm.rules.arguments import Argument
 from geswarm.rules.text import format_rule
-from geswarm.sim import World, WorldState
+from geswarm.sim import Scenario, World, WorldState, vocabulary_of
 
 from .. import palette
 from ..protocol import rules as wire
@@ -29,13 +26,15 @@ from ..protocol.base import NoticeMessage
 from ..state.document import RuleDocument
 from ..state.insight import Insight
 from ..state.journal import Unsaved
+from ..state.rival import presets_of
 from ..state.states import Activity, DrawnMachine
 from ..state.verdict import RUNS, Answer
 from ..state.worth import WorthAnswer
 
 
-def vocabulary_message() -> wire.VocabularyMessage:
-    """The names that rules are made of, with their colours, and the presets."""
+def vocabulary_message(scenario: Scenario) -> wire.VocabularyMessage:
+    """The names that rules are made of, with their colours, the presets, and the objective."""
+    vocabulary, objective = vocabulary_of(scenario), scenario.objective
     return wire.VocabularyMessage(
         preconditions=tuple(
             wire.PerceptOffer(
@@ -43,10 +42,10 @@ def vocabulary_message() -> wire.VocabularyMessage:
                 holds=entry.holds,
                 fails=entry.fails,
                 arguments=_arguments(entry.arguments),
-                values=tuple(FORAGING.values_of(entry.name)),
-                comparisons=tuple(FORAGING.comparisons_of(entry.name)),
+                values=tuple(vocabulary.values_of(entry.name)),
+                comparisons=tuple(vocabulary.comparisons_of(entry.name)),
             )
-            for entry in FORAGING.percepts.values()
+            for entry in vocabulary.percepts.values()
         ),
         behaviours=tuple(
             wire.BehaviourOffer(
@@ -55,7 +54,7 @@ def vocabulary_message() -> wire.VocabularyMessage:
                 colour=palette.css(palette.behaviour_colour(code)),
                 arguments=_arguments(entry.arguments),
             )
-            for code, entry in enumerate(FORAGING.behaviours)
+            for code, entry in enumerate(vocabulary.behaviours)
         ),
         internal_states=tuple(
             wire.StateOffer(
@@ -65,10 +64,15 @@ def vocabulary_message() -> wire.VocabularyMessage:
                 values=tuple(entry.values),
                 counts=entry.counts,
             )
-            for entry in FORAGING.internal_states
+            for entry in vocabulary.internal_states
         ),
-        probabilities=tuple(FORAGING.probabilities),
-        presets=tuple(wire.PresetOffer(name, load_preset(name).name) for name in preset_names()),
+        probabilities=tuple(vocabulary.probabilities),
+        presets=tuple(
+            wire.PresetOffer(name, preset.name) for name, preset in presets_of(vocabulary).items()
+        ),
+        objective=wire.ObjectiveOffer(
+            objective.expression, objective.unit, objective.label, objective.maximise
+        ),
     )
 
 
@@ -76,7 +80,9 @@ def _arguments(arguments: Iterable[Argument]) -> tuple[wire.ArgumentOffer, ...]:
     return tuple(wire.ArgumentOffer(each.name, each.unit, each.offered) for each in arguments)
 
 
-def rules_message(document: RuleDocument, insight: Insight | None) -> wire.RulesMessage:
+def rules_message(
+    document: RuleDocument, insight: Insight | None, vocabulary: Vocabulary
+) -> wire.RulesMessage:
     """The rules as they stand, in all their forms, with what is known of them so far."""
     rule_set = document.rule_set
     known = insight if insight is not None and insight.version == document.version else None
@@ -85,7 +91,7 @@ def rules_message(document: RuleDocument, insight: Insight | None) -> wire.Rules
         can_undo=document.can_undo,
         can_redo=document.can_redo,
         rule_set=rule_set,
-        english=tuple(describe(rule_set)),
+        english=tuple(describe(rule_set, vocabulary)),
         text=format_text(rule_set),
         rule_texts=tuple(format_rule(rule) for rule in rule_set.rules),
         loaded=document.loaded,
@@ -119,9 +125,9 @@ def placed(findings: Iterable[Finding]) -> tuple[wire.RuleFinding, ...]:
     )
 
 
-def live_message(state: WorldState) -> wire.LiveMessage:
+def live_message(state: WorldState, vocabulary: Vocabulary) -> wire.LiveMessage:
     """What the swarm does now."""
-    robots = np.bincount(state.behaviour, minlength=len(FORAGING.behaviours))
+    robots = np.bincount(state.behaviour, minlength=len(vocabulary.behaviours))
     return wire.LiveMessage(
         time=state.time,
         fired=tuple(state.rule_counts.tolist()),
@@ -140,18 +146,14 @@ def verdict_message(answer: Answer | None) -> wire.VerdictMessage:
         scenario=answer.question.scenario.name,
         runs=RUNS,
         samples=tuple(
-            wire.RoleSample(_role(sample.role), sample.name, tuple(sample.collected.tolist()))
+            wire.RoleSample(sample.role, sample.name, tuple(sample.fitness.tolist()))
             for sample in answer.samples
         ),
         comparisons=tuple(
-            wire.RoleComparison(_role(role), **asdict(comparison))
+            wire.RoleComparison(role, **asdict(comparison))
             for role, comparison in answer.comparisons.items()
         ),
     )
-
-
-def _role(role: str) -> wire.Role:
-    return cast(wire.Role, role)  # those of `contestants`
 
 
 def worth_message(answer: WorthAnswer) -> wire.WorthMessage:

@@ -47,6 +47,7 @@ class RulePage(Page):
         self._shown_worth: WorthAnswer | None = None
         self._shown_machine: DrawnMachine | None = None
         self._shown_left = session.journal.left
+        self._shown_scenario = session.loaded
         self._shown_problem = ""
         self._people = People()
         self._carry_out: dict[type[Request], Callable[[Client, Any], None]] = {
@@ -73,6 +74,9 @@ class RulePage(Page):
     def sync(self, elapsed: float) -> None:
         """Send what has changed to all pages; called by the loop once a frame."""
         session, broadcast = self.session, self.channel.broadcast
+        if session.loaded is not self._shown_scenario:
+            self._shown_scenario = session.loaded
+            broadcast(rule_messages.vocabulary_message(session.scenario))
         shown = (session.document.version, session.insight.insight)
         if shown != self._shown_rules:
             self._shown_rules = shown
@@ -93,7 +97,9 @@ class RulePage(Page):
         self._since_live += elapsed
         if self._since_live >= LIVE_SECONDS:
             self._since_live = 0.0
-            broadcast(rule_messages.live_message(session.world.state), live=True)
+            broadcast(
+                rule_messages.live_message(session.world.state, session.vocabulary), live=True
+            )
             if (activity := session.machine.activity(session.world)) is not None:
                 broadcast(rule_messages.activity_message(activity, session.world), live=True)
 
@@ -108,9 +114,9 @@ class RulePage(Page):
 
     def _greet(self, client: Client) -> None:
         session, send = self.session, self.channel.send
-        send(client, rule_messages.vocabulary_message())
+        send(client, rule_messages.vocabulary_message(session.scenario))
         send(client, self._rules())
-        send(client, rule_messages.live_message(session.world.state), live=True)
+        send(client, rule_messages.live_message(session.world.state, session.vocabulary), live=True)
         send(client, rule_messages.verdict_message(session.verdict.answer), live=True)
         if session.worth.answer is not None:
             send(client, rule_messages.worth_message(session.worth.answer), live=True)
@@ -167,7 +173,9 @@ class RulePage(Page):
         self.channel.send(client, self._rules())  # the page may wait for an answer
 
     def _rules(self) -> RulesMessage:
-        return rule_messages.rules_message(self.session.document, self.session.insight.insight)
+        return rule_messages.rules_message(
+            self.session.document, self.session.insight.insight, self.session.vocabulary
+        )
 
     def _save(self, client: Client, message: asked.Save) -> None:
         rule_set = self.session.document.rule_set
@@ -189,13 +197,13 @@ class RulePage(Page):
     def _check_text(self, client: Client, message: asked.CheckText) -> None:
         findings: tuple[RuleFinding, ...] = ()
         try:
-            parse_text(message.text)
+            parse_text(message.text, vocabulary=self.session.vocabulary)
         except RuleSetError as error:
             findings = rule_messages.placed(error.findings)
         self.channel.send(client, TextFindingsMessage(findings))
 
     def _simplify(self, client: Client, _: asked.Simplify) -> None:
-        simplification = simplify(self.session.document.rule_set)
+        simplification = simplify(self.session.document.rule_set, self.session.vocabulary)
         version = self.session.document.version
         self.channel.send(client, rule_messages.simplified_message(version, simplification))
 

@@ -10,6 +10,7 @@ from typing import Any
 import viser
 
 from geswarm.sim import NEEDS_RESET, Scenario
+from geswarm.sim.arena import Box
 
 from ..state.session import Session
 from .widgets import Mirror, Refusal
@@ -38,6 +39,15 @@ class Value:
     def needs_reset(self) -> bool:
         """The run cannot go on with another value."""
         return self.key in NEEDS_RESET
+
+    def applies(self, scenario: Scenario) -> bool:
+        """The scenario has such a number: a nest, objects, an arena that is a rectangle."""
+        if self.key in ("width", "length"):
+            return isinstance(scenario.arena.outline, Box)
+        if self.key in ("nest", "source", "light", "objects", "grip_reach", "object_margin"):
+            key = "objects" if self.key in ("grip_reach", "object_margin") else self.key
+            return bool(getattr(scenario, key))
+        return True
 
     def of(self, scenario: Scenario) -> float:
         """Its value."""
@@ -115,6 +125,9 @@ class ScenarioPanel:
         for value in VALUES:
             if value.key not in self._wanted:
                 self._mirror.show(self._numbers[value.key], value.of(session.scenario))
+            applies = value.applies(session.scenario)
+            if self._numbers[value.key].visible != applies:
+                self._numbers[value.key].visible = applies
         self._restore.disabled = session.scenario == session.loaded
         if self._restore.label != self._restore_label():
             self._restore.label = self._restore_label()

@@ -14,6 +14,7 @@ from ..scene.detail import Detail, DetailKeeper
 from ..state.keys import KEYS, Key
 from ..state.plan import LARGEST_SEED
 from ..state.playback import SPEEDS, clock
+from ..state.score import figure, score
 from ..state.session import Command, Session
 from .widgets import Mirror, Refusal
 
@@ -167,11 +168,11 @@ def detail_html(keeper: DetailKeeper) -> str:
 def score_html(session: Session) -> str:
     """Clock and score of the run, as HTML; of both runs if two are compared."""
     world = session.world
-    figures = [("collected", f"{world.collected}"), ("lost", f"{world.lost}")]
+    figures = score(world)
     if session.rival is not None:
         figures = [
-            ("these rules", f"{world.collected}"),
-            (session.rival.name, f"{session.rival.swarm.world.collected}"),
+            ("these rules", figure(world.fitness)),
+            (session.rival.name, figure(session.rival.swarm.world.fitness)),
         ]
     figures.append(("time", clock(world.time)))
     cells = "".join(

@@ -140,10 +140,12 @@ class CurvesMessage(Message, frozen=True):
     """The curves of the run looked at, the references, and what people did to it.
 
     Attributes:
+        label: What the curves are of: the objective, or what it is less than nothing.
         reevaluated: Its best is evaluated again and again, so that its curve can fall.
     """
 
     run: str | None
+    label: str
     reevaluated: bool
     generation: tuple[int, ...]
     best_so_far: tuple[float, ...]

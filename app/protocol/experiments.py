@@ -40,25 +40,31 @@ class CaseResult(Structure, frozen=True):
     """A rule set in a scenario.
 
     Attributes:
-        collected: Of every run.
+        fitness: Of every run.
     """
 
     rules: str
     scenario: str
-    collected: tuple[int, ...]
+    fitness: tuple[float, ...]
     mean: float
     sd: float
     median: float
-    lost_mean: float
     p_value: float | None
     p_holm: float | None
     effect: float | None
 
 
 class ScenarioResults(Structure, frozen=True):
-    """All rule sets in a scenario."""
+    """All rule sets in a scenario.
+
+    Attributes:
+        objective: What the figures are of.
+        maximise: More is better.
+    """
 
     name: str
+    objective: str
+    maximise: bool
     results: tuple[CaseResult, ...]
 
 

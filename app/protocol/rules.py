@@ -13,7 +13,8 @@ from geswarm.rules.model import Value
 from .base import Message, Structure
 from .edits import RulePart
 
-Role: TypeAlias = Literal["current", "before", "evo8", "hand-coded"]
+Role: TypeAlias = str
+"""`current`, `before`, or the name of a reference."""
 
 
 class ArgumentOffer(Structure, frozen=True):
@@ -71,14 +72,31 @@ class PresetOffer(Structure, frozen=True):
     title: str
 
 
+class ObjectiveOffer(Structure, frozen=True):
+    """What rules are for.
+
+    Attributes:
+        expression: Over measures.
+        unit: Of its values.
+        label: Both.
+        maximise: More is better.
+    """
+
+    expression: str
+    unit: str
+    label: str
+    maximise: bool
+
+
 class VocabularyMessage(Message, frozen=True):
-    """The names that rules are made of, with their colours, and the presets."""
+    """The names that rules are made of, with their colours, the presets, and the objective."""
 
     preconditions: tuple[PerceptOffer, ...]
     behaviours: tuple[BehaviourOffer, ...]
     internal_states: tuple[StateOffer, ...]
     probabilities: tuple[float, ...]
     presets: tuple[PresetOffer, ...]
+    objective: ObjectiveOffer
 
 
 class RuleFinding(Structure, frozen=True):
@@ -216,11 +234,11 @@ class ActivityMessage(Message, frozen=True):
 
 
 class RoleSample(Structure, frozen=True):
-    """Collected objects of each run."""
+    """The objective in each run."""
 
     role: Role
     name: str
-    collected: tuple[int, ...]
+    fitness: tuple[float, ...]
 
 
 class RoleComparison(Structure, frozen=True):

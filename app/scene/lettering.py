@@ -1,63 +1,101 @@
-"""Words painted on the floor: stroke letters as flat meshes, so that no font has to be loaded."""
+"""Words that lie on the floor, as flat meshes, in the font that Pillow brings along."""
 
 from __future__ import annotations
 
-import math
+from functools import cache
+from itertools import pairwise
 
-from .shapes import Mesh, Point, line, merged
+import numpy as np
+import numpy.typing as npt
+from PIL import Image, ImageDraw, ImageFont
 
-_ADVANCE = 0.92
-"""From one letter to the next, in letter heights."""
+from .shapes import Mesh
 
-_STROKE_WIDTH = 0.13
+Runs = npt.NDArray[np.float64]
+"""Where a row of a picture is inked: from and to, shape (runs, 2), pixels."""
 
+_CAPITAL = 64
+"""Height of a capital in the picture that a mesh is made of, pixels."""
 
-def _arc(x: float, y: float, rx: float, ry: float, start: float, end: float) -> tuple[Point, ...]:
-    """Points of an elliptic arc; angles in degrees, counter-clockwise from east."""
-    steps = max(2, round(abs(end - start) / 18))
-    angles = [math.radians(start + (end - start) * i / steps) for i in range(steps + 1)]
-    return tuple((x + rx * math.cos(a), y + ry * math.sin(a)) for a in angles)
-
-
-# Strokes of each letter in a box 0.6 wide and 1 high.
-_STROKES: dict[str, tuple[tuple[Point, ...], ...]] = {
-    " ": (),
-    "1": (((0.12, 0.8), (0.34, 1), (0.34, 0)),),
-    "C": (_arc(0.32, 0.5, 0.32, 0.5, 48, 312),),
-    "E": (((0.56, 1), (0, 1), (0, 0), (0.56, 0)), ((0, 0.52), (0.46, 0.52))),
-    "m": (
-        ((0, 0), (0, 0.62)),
-        (*_arc(0.15, 0.47, 0.15, 0.15, 180, 0), (0.3, 0)),
-        (*_arc(0.45, 0.47, 0.15, 0.15, 180, 0), (0.6, 0)),
-    ),
-    "N": (((0, 0), (0, 1), (0.6, 0), (0.6, 1)),),
-    "O": (_arc(0.32, 0.5, 0.32, 0.5, 0, 360),),
-    "R": (
-        ((0, 0), (0, 1), (0.3, 1), *_arc(0.3, 0.74, 0.28, 0.26, 90, -90), (0, 0.48)),
-        ((0.3, 0.48), (0.6, 0)),
-    ),
-    "S": ((*_arc(0.3, 0.745, 0.28, 0.255, 35, 270), *_arc(0.3, 0.245, 0.29, 0.245, 90, -145)),),
-    "T": (((-0.02, 1), (0.62, 1)), ((0.3, 1), (0.3, 0))),
-    "U": (((0, 1), (0, 0.3), *_arc(0.3, 0.3, 0.3, 0.3, 180, 360), (0.6, 1)),),
-}
+_ABOVE = 0.5  # room above and below capitals for tails and accents, by their height
+_BOLD = 1  # pixels around each stroke
 
 
 def text_width(text: str, height: float) -> float:
     """Width of `text`, metres."""
-    return (len(text) * _ADVANCE - (_ADVANCE - 0.6)) * height
+    return float(np.ptp(_vertices(text)[..., 0])) * height
 
 
 def painted(text: str, height: float) -> Mesh:
     """The letters of `text` at z = 0, readable from the south, centred on the origin.
 
     Args:
-        text: Of the characters C E N O R S T U, 1, m and space.
-        height: Of a letter, metres.
+        text: One line of what the font has: letters without accents, digits, signs.
+        height: Of a capital, metres.
     """
-    left = -text_width(text, height) / 2
-    strokes = [
-        [(left + height * (place * _ADVANCE + x), height * (y - 0.5)) for x, y in stroke]
-        for place, letter in enumerate(text)
-        for stroke in _STROKES[letter]
-    ]
-    return merged([line(stroke, _STROKE_WIDTH * height) for stroke in strokes])
+    corners = _vertices(text)
+    first = 4 * np.arange(len(corners))[:, None]
+    faces = np.concatenate([first + np.array(half) for half in ((0, 1, 2), (0, 2, 3))])
+    upright = np.zeros((corners.size // 2, 3), dtype=np.float32)
+    upright[:, :2] = height * corners.reshape(-1, 2)
+    return Mesh(upright, faces.astype(np.uint32))
+
+
+@cache
+def _vertices(text: str) -> npt.NDArray[np.float64]:
+    """Quadrilaterals that make up a text whose capitals are 1 high, shape (n, 4, 2)."""
+    font, top, base = _font()
+    above = round(_ABOVE * _CAPITAL)
+    size = round(font.getlength(text)) + 2 * _CAPITAL, round(base - top) + 2 * above
+    picture = Image.new("L", size)
+    pen = ImageDraw.Draw(picture)
+    pen.text((_CAPITAL, above - top), text, fill=255, font=font, stroke_width=_BOLD)
+    rows = [_runs(row) for row in np.asarray(picture) / 255.0]
+    quads = [_between(*two, -float(y)) for y, two in enumerate(pairwise(rows))]
+    corners = np.concatenate(quads)
+    middle = (corners[..., 0].min() + corners[..., 0].max()) / 2.0
+    found: npt.NDArray[np.float64] = corners - np.array((middle, (1 - size[1]) / 2.0))
+    return found / (base - top)
+
+
+def _runs(row: npt.NDArray[np.float64]) -> Runs:
+    """Where more than half of a row's pixels is covered, to a part of a pixel."""
+    at = np.nonzero(np.diff(row >= 0.5))[0]
+    return (at + (0.5 - row[at]) / (row[at + 1] - row[at])).reshape(-1, 2)
+
+
+def _between(upper: Runs, lower: Runs, y: float) -> npt.NDArray[np.float64]:
+    """The ink between a row at y and the next one below it, shape (n, 4, 2).
+
+    Runs that go on in one of the other row are joined; others end half way.
+    """
+    meet = (upper[:, None, 0] < lower[None, :, 1]) & (lower[None, :, 0] < upper[:, None, 1])
+    one = (meet.sum(axis=1) == 1)[:, None] & (meet.sum(axis=0) == 1)[None, :]
+    above, below = np.nonzero(meet & one)
+    end_above, end_below = np.delete(upper, above, axis=0), np.delete(lower, below, axis=0)
+    parts = (
+        (upper[above], lower[below], y, y - 1.0),
+        (end_above, end_above, y, y - 0.5),
+        (end_below, end_below, y - 0.5, y - 1.0),
+    )
+    found = []
+    for over, under, top, bottom in parts:
+        x = np.column_stack((under, over[:, ::-1]))
+        ys = np.broadcast_to((bottom, bottom, top, top), x.shape)
+        found.append(np.stack((x, ys), axis=2))
+    return np.concatenate(found)
+
+
+@cache
+def _font() -> tuple[ImageFont.FreeTypeFont, float, float]:
+    """The font, and where in it the top of a capital and the line that it stands on are."""
+    _, top, _, base = _sized(100.0).getbbox("H")
+    font = _sized(100.0 * _CAPITAL / (base - top))
+    _, top, _, base = font.getbbox("H")
+    return font, top, base
+
+
+def _sized(size: float) -> ImageFont.FreeTypeFont:
+    font = ImageFont.load_default(size)
+    assert isinstance(font, ImageFont.FreeTypeFont), "Pillow was built without FreeType"
+    return font

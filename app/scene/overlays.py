@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
 from geswarm.sim import Scenario
+from geswarm.sim.arena import Box, Outline
+from geswarm.sim.arena_geometry import corners, distances
 from geswarm.sim.footbot import RADIUS
 
 from .. import palette
@@ -37,8 +40,9 @@ HEAT: tuple[Colour, ...] = ((255, 232, 140), (252, 152, 60), (226, 62, 40), (120
 
 def sensing_ranges(scenario: Scenario) -> dict[str, float]:
     """Radius of each range around the robot's centre, metres."""
+    grip = {"grip reach": scenario.grip_reach} if scenario.objects else {}
     return {
-        "grip reach": scenario.grip_reach,
+        **grip,
         "proximity": RADIUS + scenario.proximity_range,
         "range and bearing": scenario.rab_range,
     }
@@ -156,7 +160,9 @@ class Overlays:
         image.visible = shown.visits
         if shown.visits and trace.samples != self._visit_samples:
             self._visit_samples = trace.samples
-            image.image = heat_map(trace.visits)[::-1]  # viser draws its first row in the south
+            picture = heat_map(trace.visits)
+            picture[outside(trace)] = 0
+            image.image = picture[::-1]  # viser draws its first row in the south
 
     def _circles(self, name: str, radius: float, count: int) -> viser.BatchedMeshHandle:
         mesh: Mesh = annulus(radius - 0.006, radius + 0.006, 64)
@@ -184,6 +190,24 @@ def trail_segments(trails: Trails) -> tuple[npt.NDArray[np.float32], npt.NDArray
     age = 0.9 * trails.age[:, None] ** 1.5
     colours = (1.0 - age) * vivid + age * np.array(_FADED, dtype=float)
     return points, np.repeat(_LINEAR[colours.astype(np.uint8)][:, None], 2, axis=1)
+
+
+def outside(trace: PathTrace) -> npt.NDArray[np.bool_]:
+    """Which cells of the visits are outside the walls, shape (rows, columns), north first."""
+    rows, columns = trace.visits.shape
+    return _outside(trace.scenario.arena.outline, rows, columns)
+
+
+@lru_cache(maxsize=4)
+def _outside(outline: Outline, rows: int, columns: int) -> npt.NDArray[np.bool_]:
+    if isinstance(outline, Box):
+        return np.zeros((rows, columns), dtype=np.bool_)
+    reach = np.abs(corners(outline)).max(axis=0)
+    x = ((np.arange(columns) + 0.5) / columns * 2.0 - 1.0) * reach[0]
+    y = (1.0 - (np.arange(rows) + 0.5) / rows * 2.0) * reach[1]
+    points = np.stack(np.meshgrid(x, y), axis=2).reshape(-1, 2)
+    found: npt.NDArray[np.bool_] = (distances(outline, points) > 0.0).reshape(rows, columns)
+    return found
 
 
 def _softened(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""The parts of the arena that do not move: ground, zones, walls, the light and the backdrop."""
+"""The parts of the arena that do not move: ground, walls, obstacles, lamps and the backdrop."""
 
 from __future__ import annotations
 
@@ -7,31 +7,30 @@ import numpy.typing as npt
 import viser
 
 from geswarm.sim import Scenario
+from geswarm.sim.arena import Obstacle
+from geswarm.sim.arena_geometry import corners
 
 from .. import palette
 from ..palette import Colour
-from .camera import ELEVATION, FORWARD
-from .lettering import painted, text_width
-from .shapes import Mesh, box, line, merged, rectangle
+from .ground import LETTER_HEIGHT, as_shown, floors, signs
+from .lamps import draw_lamp, lamp_of
+from .lettering import painted
+from .plane import rim, wall
+from .shapes import Mesh, box, line, merged, prism
 
 WALL_HEIGHT = 0.07
 WALL_THICKNESS = 0.05
+OBSTACLE_HEIGHT = 0.11
 MARGIN = 0.28
 """Of the table around the arena, m."""
 
-LAMP_DISTANCE = 0.5
-"""From the north wall to the lamp that stands for the far light, m."""
-
-LAMP_HEIGHT = 0.40
-LAMP_RADIUS = 0.10
-GLOW_RADIUS = 0.55
-
 _WALL: Colour = (168, 174, 188)
+_OBSTACLE: Colour = (138, 146, 166)
 _TABLE: Colour = (84, 90, 106)
 _MARKING: Colour = (206, 210, 220)
-_NEST_TEXT: Colour = (142, 156, 204)
-_SOURCE_TEXT: Colour = (202, 172, 124)
 _LETTERS_Z = 0.004
+_APRON_WIDTH, _APRON_Z = 0.11, 0.0073
+"""Of the table along the walls, m; it lies above the light of robots, which stays inside so."""
 _TABLE_TOP = -0.004
 
 
@@ -39,31 +38,30 @@ def outer_points(scenario: Scenario) -> npt.NDArray[np.float64]:
     """Points that enclose all that must be in the picture, shape (n, 3), metres."""
     east, north = scenario.width / 2 + MARGIN, scenario.length / 2 + MARGIN
     ground = [(x, y, z) for x in (-east, east) for y in (-north, north) for z in (0.0, 0.15)]
-    lamp = [(x, scenario.length / 2 + LAMP_DISTANCE, LAMP_HEIGHT + 0.35) for x in (-0.3, 0.3)]
-    return np.array(ground + lamp)
+    arena = scenario.arena
+    lamps = [point for light in arena.lights for point in lamp_of(arena, light).outermost]
+    return np.array(ground + lamps)
 
 
 def draw_scenery(scene: viser.SceneApi, root: str, scenario: Scenario) -> None:
     """Draw everything that does not move, as children of the node `root`."""
-    east, north = scenario.width / 2, scenario.length / 2
-    nest_edge, source_edge = scenario.nest - north, north - scenario.source
-    across = (-east, east)
+    arena, east, north = as_shown(scenario), scenario.width / 2, scenario.length / 2
     stretch = _stretch(scenario)
-    _flat(scene, f"{root}/nest", rectangle(across, (-north, nest_edge)), palette.NEST)
-    _flat(scene, f"{root}/source", rectangle(across, (source_edge, north)), palette.SOURCE)
-    if source_edge > nest_edge:
-        _flat(scene, f"{root}/floor", rectangle(across, (nest_edge, source_edge)), palette.FLOOR)
-    _flat(scene, f"{root}/walls", _walls(east, north), _WALL)
+    for number, (mesh, colour) in enumerate(floors(arena, stretch)):
+        _flat(scene, f"{root}/floor_{number}", mesh, colour)
+    apron = rim(arena.outline, _APRON_WIDTH).moved(z=_APRON_Z)
+    _flat(scene, f"{root}/apron", apron, _TABLE)
+    _flat(scene, f"{root}/walls", wall(arena.outline, WALL_THICKNESS, WALL_HEIGHT), _WALL)
+    if arena.obstacles:
+        _flat(scene, f"{root}/obstacles", merged(list(map(_solid, arena.obstacles))), _OBSTACLE)
     _flat(scene, f"{root}/table", _table(east, north, stretch), _TABLE)
     _flat(scene, f"{root}/scale", _scale_bar(east, north), _MARKING)
-    for word, colour, middle, depth in (
-        ("NEST", _NEST_TEXT, (nest_edge - north) / 2, scenario.nest),
-        ("SOURCE", _SOURCE_TEXT, (source_edge + north) / 2, scenario.source),
-    ):
-        height = min(0.42 * stretch, 0.4 * depth, 0.7 * scenario.width / text_width(word, 1.0))
-        letters = painted(word, height).moved(y=middle, z=_LETTERS_Z * stretch)
-        _flat(scene, f"{root}/{word.lower()}_label", letters, colour)
-    _draw_lamp(scene, f"{root}/light", north, scenario.light)
+    for sign in signs(arena, LETTER_HEIGHT * stretch):
+        letters = painted(sign.text, sign.height).moved(*sign.at, _LETTERS_Z * stretch)
+        _flat(scene, f"{root}/{sign.area}_label", letters, palette.on_ground(sign.ground))
+    for number, light in enumerate(arena.lights):
+        name = f"{root}/light_{number}" if number else f"{root}/light"
+        draw_lamp(scene, name, lamp_of(arena, light))
 
 
 def draw_backdrop(scene: viser.SceneApi) -> None:
@@ -80,17 +78,9 @@ def draw_backdrop(scene: viser.SceneApi) -> None:
     scene.set_background_image(_backdrop(), format="png")
 
 
-def _walls(east: float, north: float) -> Mesh:
-    thick, up = WALL_THICKNESS, (0.0, WALL_HEIGHT)
-    along_x, along_y = (-east - thick, east + thick), (-north, north)
-    return merged(
-        (
-            box(along_x, (north, north + thick), up),
-            box(along_x, (-north - thick, -north), up),
-            box((east, east + thick), along_y, up),
-            box((-east - thick, -east), along_y, up),
-        )
-    )
+def _solid(obstacle: Obstacle) -> Mesh:
+    """An obstacle, standing on the floor."""
+    return prism([(float(x), float(y)) for x, y in corners(obstacle)], 0.0, OBSTACLE_HEIGHT)
 
 
 def _stretch(scenario: Scenario) -> float:
@@ -107,48 +97,8 @@ def _table(east: float, north: float, stretch: float) -> Mesh:
 def _scale_bar(east: float, north: float) -> Mesh:
     """One metre on the table in front of the south wall, at the west end."""
     bar = line(((0.0, 0.045), (0.0, 0.0), (1.0, 0.0), (1.0, 0.045)), 0.014)
-    words = painted("1 m", 0.085).moved(x=0.5, y=0.074)
-    return (bar + words).moved(-east, -north - MARGIN + 0.08, _TABLE_TOP + _LETTERS_Z)
-
-
-def _draw_lamp(scene: viser.SceneApi, name: str, north: float, distance: float) -> None:
-    """The light is too far away to be shown in its place: a glowing ball on its bearing."""
-    at = np.array((0.0, north + LAMP_DISTANCE, LAMP_HEIGHT))
-    scene.add_icosphere(
-        f"{name}/ball", LAMP_RADIUS, color=(255, 236, 170), position=at, cast_shadow=False
-    )
-    scene.add_image(
-        f"{name}/glow",
-        _glow(),
-        2 * GLOW_RADIUS,
-        2 * GLOW_RADIUS,
-        position=tuple(at - 1.2 * LAMP_RADIUS * FORWARD),
-        wxyz=_FACING_CAMERA,
-        cast_shadow=False,
-        receive_shadow=False,
-    )
-    scene.add_label(
-        f"{name}/label",
-        f"light, {distance:g} m north",
-        position=(0.0, at[1], LAMP_HEIGHT + 0.16),
-        anchor="bottom-center",
-        font_screen_scale=1.2,
-    )
-
-
-_TILT = np.pi / 2 - ELEVATION
-_FACING_CAMERA = (np.cos(_TILT / 2), np.sin(_TILT / 2), 0.0, 0.0)
-"""Turns a picture, which viser lays in its x-y plane, to a camera in its usual place."""
-
-
-def _glow(size: int = 128) -> npt.NDArray[np.uint8]:
-    """A soft disc of light, shape (size, size, 4), RGBA."""
-    axis = np.linspace(-1.0, 1.0, size)
-    radius = np.hypot(axis[:, None], axis[None, :])
-    picture = np.empty((size, size, 4), dtype=np.uint8)
-    picture[..., :3] = palette.LIGHT
-    picture[..., 3] = 235 * np.clip(1.0 - radius, 0.0, 1.0) ** 2
-    return picture
+    words = painted("1 m", 0.085).moved(x=0.5, y=0.078)
+    return (bar + words).moved(-east, -north - MARGIN + 0.05, _TABLE_TOP + _LETTERS_Z)
 
 
 def _backdrop(height: int = 256) -> npt.NDArray[np.uint8]:

@@ -11,6 +11,7 @@ import viser
 from geswarm.sim import Scenario
 
 from ..state.playback import clock
+from ..state.score import figure, score
 from ..state.session import Session
 from .arena import Arena
 from .cameraman import Cameraman
@@ -18,7 +19,7 @@ from .detail import Detail, DetailKeeper
 from .overlays import Overlays
 from .pointer import Pointer
 from .replay import THESE_RULES
-from .scenery import LAMP_DISTANCE, MARGIN, draw_backdrop, outer_points
+from .scenery import MARGIN, draw_backdrop, outer_points
 
 _TRAIL_SECONDS, _VISIT_SECONDS = 0.1, 0.5  # from one drawing to the next
 _APART = 0.35  # m between the tables of two arenas
@@ -107,16 +108,7 @@ class Stage:
 
     def _wanted_layout(self) -> tuple[object, ...]:
         """All that the scenery depends on."""
-        scenario = self.session.scenario
-        rival = self.session.rival is not None
-        return (
-            scenario.width,
-            scenario.length,
-            scenario.nest,
-            scenario.source,
-            scenario.light,
-            rival,
-        )
+        return self.session.scenario.arena, self.session.rival is not None
 
     def _draw(self) -> None:
         scenario, scene = self.session.scenario, self._server.scene
@@ -146,8 +138,8 @@ class Stage:
             return {}
         mine, other = session.world, session.rival.swarm.world
         return {
-            self.arena.root: f"{THESE_RULES}: {mine.collected}",
-            self.rival.root: f"{session.rival.name}: {other.collected}",
+            self.arena.root: f"{THESE_RULES}: {figure(mine.fitness)}",
+            self.rival.root: f"{session.rival.name}: {figure(other.fitness)}",
         }
 
     def _sync_titles(self) -> None:
@@ -163,7 +155,7 @@ class Stage:
             return
         text = clock(world.time)
         if self.session.rival is None:
-            text += f" · {world.collected} collected, {world.lost} lost"
+            text += " · " + ", ".join(f"{value} {name}" for name, value in score(world))
         if self._caption is None:
             west, north = -scenario.width / 2 - MARGIN, scenario.length / 2 + MARGIN
             self._caption = self._server.scene.add_label(
@@ -188,6 +180,7 @@ class Stage:
 
 def beside(scenario: Scenario) -> tuple[float, float]:
     """Where the second arena is: to the right of the first, or below it if they are wide."""
+    across, along, _ = np.ptp(outer_points(scenario), axis=0)
     if scenario.width > 2.0 * scenario.length:
-        return 0.0, -(1.5 * scenario.length + 2 * MARGIN + LAMP_DISTANCE + _APART)
-    return scenario.width + 2 * MARGIN + _APART, 0.0
+        return 0.0, -float(0.5 * scenario.length + along + MARGIN + _APART)
+    return float(across) + _APART, 0.0

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from geswarm.analysis.cases import Case, Samples, run_cases
 from geswarm.analysis.compared import Compared
-from geswarm.rules import RuleSet, load_preset, load_rule_set, preset_names, read_rule_set
-from geswarm.sim import EvaluationStopped, Scenario, load_scenario, scenario_names
+from geswarm.rules import RuleSet, Vocabulary, load_rule_set, read_rule_set
+from geswarm.sim import (
+    EvaluationStopped,
+    Scenario,
+    load_scenario,
+    scenario_names,
+    vocabulary_of,
+)
 
 from ..run_directory import RUNS
 from .background import Newest, Stop
 from .plan import LARGEST_SEED
-from .rival import best_of
+from .rival import best_of, presets_of
 
 ARENA, TABLE = "arena", "table"
 MOST_RUNS, LEAST_RUNS = 1000, 2
@@ -23,6 +30,7 @@ MOST_CHOSEN = 12
 """Rule sets, and scenarios; more cannot be looked at side by side."""
 MOST_FILES = 20
 _MOST_KEPT = 200
+_FIRST_PRESETS = 2
 
 
 class ChoiceError(ValueError):
@@ -41,7 +49,7 @@ class ComparisonChoice:
         seed: Of their random streams.
     """
 
-    rules: tuple[str, ...] = (TABLE, "EVO 8", "Hand-coded")
+    rules: tuple[str, ...] = (TABLE,)
     scenarios: tuple[str, ...] = (ARENA,)
     against: str = ""
     runs: Any = 50
@@ -103,19 +111,38 @@ class RuleSetComparison:
 
     Attributes:
         workers: Threads that simulate; leave one core to the arena.
+        vocabulary: Of the arena: what rule sets and scenarios must have to be compared.
         choice: As it is typed.
         progress: Of the newest comparison, replaced as runs come in; None before the first one.
     """
 
-    def __init__(self, workers: int, folder: Path = RUNS) -> None:
+    def __init__(self, workers: int, scenario: Scenario, folder: Path = RUNS) -> None:
         self.workers = workers
-        self.choice = ComparisonChoice()
+        self.vocabulary = vocabulary_of(scenario)
+        self.choice = self._first_choice()
         self.progress: Progress | None = None
         self._folder = folder
-        self._presets = {load_preset(name).name: name for name in preset_names()}
         self._files: dict[str, RuleSet] = {}
         self._kept: dict[str, Path] = {}
         self._newest: Newest[ComparisonQuestion] = Newest("comparison", self._answer)
+
+    def move_to(self, scenario: Scenario) -> None:
+        """Compare what is in a scenario's words from now on."""
+        if vocabulary_of(scenario) is not self.vocabulary:
+            self.cancel()
+            self.vocabulary, self._files = vocabulary_of(scenario), {}
+            self.choice = self._first_choice()
+
+    def _first_choice(self) -> ComparisonChoice:
+        """The table and the first presets, where the arena is."""
+        return ComparisonChoice(rules=(TABLE, *list(self._presets)[:_FIRST_PRESETS]))
+
+    @property
+    def _presets(self) -> dict[str, RuleSet]:
+        """The presets by title, those of the paper first."""
+        presets = presets_of(self.vocabulary)
+        ordered = sorted(presets, key=lambda name: (name not in ("evo8", "hand-coded"), name))
+        return {presets[name].name: presets[name] for name in ordered}
 
     def rules_offered(self) -> list[str]:
         """Names of all rule sets that there are: table, presets, files, the best of the runs."""
@@ -123,7 +150,7 @@ class RuleSetComparison:
 
     def scenarios_offered(self) -> list[str]:
         """Names of all scenarios; the first is that of the arena as it is now."""
-        return [ARENA, *scenario_names()]
+        return [ARENA, *_scenarios_with(self.vocabulary)]
 
     def look_for_runs(self) -> None:
         """Find what the runs that are kept ended with; what is gone is no longer chosen."""
@@ -146,7 +173,7 @@ class RuleSetComparison:
             RuleSetError: It cannot be read.
             ChoiceError: There are too many.
         """
-        rule_set = read_rule_set(text, name)
+        rule_set = read_rule_set(text, name, self.vocabulary)
         called = f"file {name}"
         if called not in self._files and len(self._files) == MOST_FILES:
             raise ChoiceError(f"{name}: {MOST_FILES} files are loaded, and no more can be")
@@ -211,8 +238,10 @@ class RuleSetComparison:
         if name == TABLE:
             return table
         if name in self._presets:
-            return load_preset(self._presets[name])
-        return self._files[name] if name in self._files else load_rule_set(str(self._kept[name]))
+            return self._presets[name]
+        if name in self._files:
+            return self._files[name]
+        return load_rule_set(str(self._kept[name]), self.vocabulary)
 
     def _answer(self, question: ComparisonQuestion, stop: Stop) -> None:
         """Case after case, so that the first are seen soon and the arena has its turn."""
@@ -237,6 +266,14 @@ class RuleSetComparison:
             self.progress = replace(progress, busy=False, error=words)
         if self.progress is progress:  # also if it was cancelled while this was published
             self.progress = replace(progress, busy=False)
+
+
+@cache
+def _scenarios_with(vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Names of the built-in scenarios in which the same rules can run."""
+    return tuple(
+        name for name in scenario_names() if vocabulary_of(load_scenario(name)) is vocabulary
+    )
 
 
 def _progress(question: ComparisonQuestion, samples: Samples, share: float) -> Progress:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from geswarm.rules import Rule, RuleSet, apply_edit
+from geswarm.rules import FORAGING, Rule, RuleSet, Vocabulary, apply_edit
 
 from ..protocol.edits import AnyEdit, MoveRule, PlaceEdit, RuleEdit
 
@@ -65,13 +65,13 @@ class RuleDocument:
         now = bare_rules(self.rule_set)
         return next((past for past, _ in reversed(self._past) if bare_rules(past) != now), None)
 
-    def edit(self, edit: AnyEdit) -> None:
+    def edit(self, edit: AnyEdit, vocabulary: Vocabulary = FORAGING) -> None:
         """Make one edit.
 
         Raises:
             EditError: It cannot be made; the document is untouched.
         """
-        self.replace(apply_edit(self.rule_set, msgspec.to_builtins(edit)))
+        self.replace(apply_edit(self.rule_set, msgspec.to_builtins(edit), vocabulary))
 
     def caught_up(self, edit: AnyEdit, version: int) -> AnyEdit:
         """An edit that was meant for an earlier version, as it is meant for this one.
@@ -83,6 +83,12 @@ class RuleDocument:
         if not 0 <= late < len(self._recent):
             raise StaleError
         return _moved(edit, self._recent[-1 - late].rules, self.rule_set.rules)
+
+    def begin_anew(self, rule_set: RuleSet) -> None:
+        """Forget everything before: the rules are in other words now."""
+        self._past, self._future = [], []
+        self.saved = rule_set
+        self._show(rule_set, rule_set)
 
     def load(self, rule_set: RuleSet) -> None:
         """Put a rule set from elsewhere in place; differences are counted from it."""

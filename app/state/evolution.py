@@ -10,10 +10,11 @@ from pathlib import Path
 from geswarm.evaluation import evaluate_rule_sets
 from geswarm.evolution import EvolutionRun, InjectionError, RunConfig
 from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError
-from geswarm.rules import RuleSet, load_preset
+from geswarm.rules import RuleSet
 from geswarm.sim import EvaluationStopped, Scenario
 
-REFERENCES = ("hand-coded", "evo8")
+from .references import references_of
+
 REFERENCE_RUNS = 50
 
 
@@ -45,7 +46,7 @@ class EvolutionThread:
         generations: How many the run will have.
         history: Records of all generations so far.
         best: The best rule set so far.
-        references: Mean collected of the presets in the run's scenario, by name, once known.
+        references: Mean gain of the references in the run's scenario, by title, once known.
     """
 
     def __init__(self, workers: int) -> None:
@@ -192,13 +193,13 @@ class EvolutionThread:
 def evaluate_references(
     scenario: Scenario, workers: int, stop: Callable[[], bool]
 ) -> Iterator[tuple[str, float]]:
-    """What the presets collect in a scenario: name and mean, one after the other.
+    """What a scenario's references are worth: title and mean gain, one after the other.
 
     Raises:
         EvaluationStopped: `stop` returned True.
     """
-    for name in REFERENCES:
+    for reference in references_of(scenario).values():
         (evaluation,) = evaluate_rule_sets(
-            [load_preset(name)], scenario, REFERENCE_RUNS, workers=workers, stop=stop
+            [reference], scenario, REFERENCE_RUNS, workers=workers, stop=stop
         )
-        yield name, evaluation.mean
+        yield reference.name, scenario.objective.gain(evaluation.mean)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from geswarm.rules import Finding, RuleSet, Simplification, check, simplify
+from geswarm.rules import Finding, RuleSet, Simplification, Vocabulary, check, simplify
 
 from .background import Newest, Stop
 
@@ -33,18 +33,19 @@ class InsightFinder:
 
     def __init__(self) -> None:
         self.insight: Insight | None = None
-        self._newest: Newest[tuple[int, RuleSet]] = Newest("insight", self._look)
+        self._newest: Newest[tuple[int, RuleSet, Vocabulary]] = Newest("insight", self._look)
 
-    def look_into(self, version: int, rule_set: RuleSet) -> None:
+    def look_into(self, version: int, rule_set: RuleSet, vocabulary: Vocabulary) -> None:
         """Begin at once; what was under way is dropped."""
-        self._newest.ask((version, rule_set))
+        self._newest.ask((version, rule_set, vocabulary))
 
     def close(self) -> None:
         """End the thread."""
         self._newest.close()
 
-    def _look(self, question: tuple[int, RuleSet], stop: Stop) -> None:
-        version, rule_set = question
-        findings, simplification = tuple(check(rule_set)), simplify(rule_set)
+    def _look(self, question: tuple[int, RuleSet, Vocabulary], stop: Stop) -> None:
+        version, rule_set, vocabulary = question
+        findings = tuple(check(rule_set, vocabulary))
+        simplification = simplify(rule_set, vocabulary)
         if not stop():
             self.insight = Insight(version, findings, simplification)

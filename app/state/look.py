@@ -15,7 +15,7 @@ from geswarm.ge import (
     StoredSteering,
     StoreError,
 )
-from geswarm.rules import Origin, RuleSet
+from geswarm.rules import Origin, RuleSet, Vocabulary
 
 from .behaviours import Label, Labels
 from .run_folder import stamp_of
@@ -46,6 +46,7 @@ class Chosen:
         key: Its number among those.
         fitness: What is known of it.
         rule_set: Its rules.
+        vocabulary: Of its scenario.
     """
 
     run: str
@@ -53,6 +54,7 @@ class Chosen:
     key: int
     fitness: float
     rule_set: RuleSet
+    vocabulary: Vocabulary
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +133,8 @@ class Look:
         name = f"Generation {generation}, individual {key}"
         origin = Origin(run=str(self.directory), generation=generation, fitness=fitness)
         named = replace(rule_set, name=name, origin=origin)
-        return Chosen(self.directory.name, generation, key, fitness, named)
+        known = self.config.composition.vocabulary
+        return Chosen(self.directory.name, generation, key, fitness, named, known)
 
 
 def main_line(ancestors: Sequence[StoredIndividual]) -> list[StoredIndividual]:

@@ -87,7 +87,7 @@ class RunPlan:
         preset = asdict(Settings.preset(self.preset))
         return [name for name, value in self.values.items() if value != preset[name]]
 
-    def findings(self, rule_set: RuleSet) -> dict[str, str]:
+    def findings(self, scenario: Scenario, rule_set: RuleSet) -> dict[str, str]:
         """What is wrong with it, by the name of the setting; `rule_set` is that of the table."""
         found: dict[str, str] = {}
         try:
@@ -98,7 +98,7 @@ class RunPlan:
             found["seed"] = f"expected a whole number from 0 to {LARGEST_SEED}, got {self.seed!r}"
         if self.from_table:
             try:
-                self.first(rule_set)
+                self.first(scenario, rule_set)
             except InjectionError as error:
                 found["from_table"] = str(error)
         return found
@@ -108,7 +108,7 @@ class RunPlan:
         pairs = zip(rule_set.rules, bare_rules(rule_set), strict=True)
         return tuple(rule for rule, bare in pairs if rule.enabled and bare in self.frozen)
 
-    def first(self, rule_set: RuleSet) -> RuleSet | None:
+    def first(self, scenario: Scenario, rule_set: RuleSet) -> RuleSet | None:
         """What enters the first generation: the rules of the table, the frozen ones in front.
 
         Raises:
@@ -119,7 +119,7 @@ class RunPlan:
         frozen = self.frozen_rules(rule_set)
         others = [rule for rule in rule_set.active_rules if rule not in frozen]
         first = RuleSet((*frozen, *others))
-        Composition(frozen).phenotype(first)  # raises if it cannot
+        Composition.of(scenario, frozen).phenotype(first)  # raises if it cannot
         return first
 
     def config(self, scenario: Scenario, rule_set: RuleSet) -> RunConfig:
@@ -128,7 +128,7 @@ class RunPlan:
         Raises:
             RunPlanError: With all findings.
         """
-        if found := self.findings(rule_set):
+        if found := self.findings(scenario, rule_set):
             raise RunPlanError("\n".join(f"{name}: {text}" for name, text in found.items()))
         settings = Settings(**self.values)
         return RunConfig(scenario, settings, self.seed, self.frozen_rules(rule_set))

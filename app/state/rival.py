@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from geswarm.rules import RuleSet, load_preset, preset_names
+from geswarm.rules import RuleSet, Vocabulary, load_preset, preset_names
+from geswarm.rules.names import name_errors
 
 from .document import RuleDocument
 from .runs import Runs
@@ -34,18 +35,24 @@ def best_of(run: str) -> str:
 
 
 @cache
-def _presets() -> tuple[RuleSet, ...]:
-    """Read once: the panel asks ten times a second."""
-    return tuple(load_preset(name) for name in preset_names())
+def presets_of(vocabulary: Vocabulary) -> dict[str, RuleSet]:
+    """The presets that a vocabulary can say, by name; read once."""
+    return {name: load_preset(name, vocabulary) for name in preset_names(vocabulary)}
 
 
-def rivals_offered(document: RuleDocument, runs: Runs) -> dict[str, RuleSet]:
+def rivals_offered(
+    document: RuleDocument, runs: Runs, vocabulary: Vocabulary
+) -> dict[str, RuleSet]:
     """The rule sets that there are to compare with now, by name for people."""
-    offered = {preset.name: preset for preset in _presets()}
+    offered = {preset.name: preset for preset in presets_of(vocabulary).values()}
     if document.before is not None:
         offered[BEFORE] = document.before
     if runs.best is not None and runs.shown is not None:
         offered[best_of(runs.shown.name)] = runs.best
     if runs.chosen is not None:
         offered[CHOSEN] = runs.chosen.rule_set
-    return offered
+    return {
+        name: rule_set
+        for name, rule_set in offered.items()
+        if not name_errors(rule_set, vocabulary)
+    }

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-from geswarm.rules import RuleSet, load_preset, read_rule_set, simplify
+from geswarm.rules import RuleSet, Vocabulary, load_preset, read_rule_set, simplify
+from geswarm.rules.names import require_known_names
 
 from ..protocol.edits import AnyEdit
 from .document import RuleDocument
@@ -22,6 +23,11 @@ class RuleCommands(ABC):
     document: RuleDocument
     journal: Journal
 
+    @property
+    @abstractmethod
+    def vocabulary(self) -> Vocabulary:
+        """What the rules may mention."""
+
     @abstractmethod
     def _follow_document(self) -> None:
         """Have all else follow the rules as they are now."""
@@ -32,7 +38,7 @@ class RuleCommands(ABC):
         Raises:
             EditError: The edit cannot be made; nothing has changed.
         """
-        self.document.edit(edit)
+        self.document.edit(edit, self.vocabulary)
         self._follow_document()
 
     def undo(self) -> None:
@@ -56,7 +62,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: There is none of that name.
         """
-        self.load(load_preset(name))
+        self.load(load_preset(name, self.vocabulary))
 
     def load_text(self, text: str, source: str) -> None:
         """Load YAML or the rule language.
@@ -64,7 +70,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: It cannot be read; nothing has changed.
         """
-        self.load(read_rule_set(text, source))
+        self.load(read_rule_set(text, source, self.vocabulary))
 
     def set_text(self, text: str) -> None:
         """Change the rules to what was typed in the rule language.
@@ -72,7 +78,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: It cannot be read; nothing has changed.
         """
-        self.document.replace(read_rule_set(text))
+        self.document.replace(read_rule_set(text, vocabulary=self.vocabulary))
         self._follow_document()
 
     def saved(self) -> None:
@@ -81,12 +87,17 @@ class RuleCommands(ABC):
         self.journal.keep(self.document.unsaved)
 
     def bring_back(self, unsaved: Unsaved) -> None:
-        """Put rules that a killed dashboard left in place; undo takes them out again."""
+        """Put rules that a killed dashboard left in place; undo takes them out again.
+
+        Raises:
+            RuleSetError: They mention what this scenario does not offer.
+        """
+        require_known_names(unsaved.rule_set, self.vocabulary)
         self.document.replace(unsaved.rule_set)
         self.journal.settle(unsaved, self.document.unsaved)
         self._follow_document()
 
     def simplify(self) -> None:
         """Put the shortest rules with exactly the same behaviour in place."""
-        self.document.replace(simplify(self.document.rule_set).rule_set)
+        self.document.replace(simplify(self.document.rule_set, self.vocabulary).rule_set)
         self._follow_document()

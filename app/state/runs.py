@@ -95,8 +95,15 @@ class Runs:
         return self.shown_look.best if self.shown_look else None
 
     @property
+    def label(self) -> str:
+        """What the fitness of the run looked at is."""
+        live, look = self.evolution.run, self.shown_look
+        config = live.config if self.shows_present and live else look.config if look else None
+        return config.scenario.objective.gain_label if config else ""
+
+    @property
     def references(self) -> dict[str, float]:
-        """Mean collected of the presets where the run looked at took place, once known."""
+        """Mean gain of the references where the run looked at took place, by title, once known."""
         if self.shows_present:
             return self.evolution.references
         look = self.shown_look
@@ -144,7 +151,7 @@ class Runs:
             RunPlanError: The plan has findings.
         """
         config = self.plan.config(scenario, self._rule_set)
-        first = self.plan.first(self._rule_set)
+        first = self.plan.first(scenario, self._rule_set)
         directory = new_run_directory(config, self._folder.path)
         self.evolution.start(config, directory, first)
         self._opened = None
@@ -261,7 +268,7 @@ class Runs:
             )
 
     def _find_references(self, scenario: Scenario, stop: Stop) -> None:
-        """What the presets collect where the run looked at took place."""
+        """What the references are worth where the run looked at took place."""
         if scenario in self._references:
             return
         with contextlib.suppress(EvaluationStopped):

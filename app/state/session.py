@@ -13,8 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from geswarm.rules import RuleSet
-from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on
+from geswarm.rules import RuleSet, Vocabulary
+from geswarm.rules.names import name_errors
+from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on, vocabulary_of
 
 from .campaigns import Campaigns
 from .comparison import RuleSetComparison
@@ -24,6 +25,7 @@ from .insight import InsightFinder
 from .journal import Journal
 from .past_runs import ArenaRun, PastRuns
 from .playback import Playback
+from .references import first_rules
 from .rival import BEFORE, Rival, rivals_offered
 from .rule_commands import RuleCommands
 from .runs import Runs
@@ -97,7 +99,7 @@ class Session(RuleCommands):
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
         self.runs = Runs(evolution, rule_set)
-        self.comparison = RuleSetComparison(evolution.workers)
+        self.comparison = RuleSetComparison(evolution.workers, scenario)
         self.campaigns = Campaigns(evolution)
         self.scenario_version = 1
         self.verdict = Judge(evolution.workers)
@@ -110,8 +112,8 @@ class Session(RuleCommands):
         self.held: Held | None = None
         self._swarm = ShownSwarm(self.world)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
-        self.insight.look_into(self.document.version, rule_set)
-        self.machine.draw(rule_set)
+        self.insight.look_into(self.document.version, rule_set, self.vocabulary)
+        self.machine.draw(rule_set, self.vocabulary)
         self._judge()
 
     # --- the loop -----------------------------------------------------------------------------
@@ -208,7 +210,9 @@ class Session(RuleCommands):
         same_scenario = run.scenario == self.scenario
         self.loaded, self.scenario, self.rival = run.loaded, run.scenario, run.rival
         self._swarm, self.world, self.trace = run.swarm, run.swarm.world, run.trace
-        if bare_rules(self.document.rule_set) != bare_rules(self.world.rule_set):
+        if name_errors(self.document.rule_set, self.vocabulary):
+            self._forget_rules(self.world.rule_set)
+        elif bare_rules(self.document.rule_set) != bare_rules(self.world.rule_set):
             self.world.set_rules(self.document.rule_set)
         self.held = None
         self._jump()
@@ -232,8 +236,36 @@ class Session(RuleCommands):
     # --- commands: scenario -------------------------------------------------------------------
 
     def set_scenario(self, scenario: Scenario) -> None:
-        """Move the swarm to another scenario; the rules stay."""
-        self._take_scenario(scenario, loaded=scenario)
+        """Move the swarm to another scenario; the rules stay if it has the same terms.
+
+        Else those come that the scenario is compared with; undo does not bring the old ones back,
+        but going back to the run before does.
+        """
+        if vocabulary_of(scenario) is self.vocabulary:
+            self._take_scenario(scenario, loaded=scenario)
+        else:
+            self._enter(scenario)
+
+    def _enter(self, scenario: Scenario) -> None:
+        """Begin in a scenario with other terms, with rules that can run there."""
+        self.past.keep(self._run())
+        self.scenario_problem = ""
+        self.loaded = self.scenario = scenario
+        rule_set = first_rules(scenario)
+        self.world = World(scenario, rule_set, self.world.seed)
+        self._swarm, self.rival = ShownSwarm(self.world), None
+        self.trace = PathTrace(scenario, self.world.state)
+        self._forget_rules(rule_set)
+        self._restarted()
+        self._scenario_changed()
+
+    def _forget_rules(self, rule_set: RuleSet) -> None:
+        """Have rules in other words in place of those edited so far."""
+        self.document.begin_anew(rule_set)
+        self.comparison.move_to(self.scenario)
+        self.runs.follow(rule_set)
+        self.insight.look_into(self.document.version, rule_set, self.vocabulary)
+        self.machine.draw(rule_set, self.vocabulary)
 
     def change_scenario(self, **changes: Any) -> None:
         """Change values of the scenario, at once where the run can go on, else with a reset.
@@ -274,7 +306,7 @@ class Session(RuleCommands):
 
     def rivals_offered(self) -> tuple[str, ...]:
         """Names of the rule sets that there are to compare with now."""
-        return tuple(rivals_offered(self.document, self.runs))
+        return tuple(rivals_offered(self.document, self.runs, self.vocabulary))
 
     def compare_with(self, name: str | None) -> None:
         """Run another rule set beside this one, both from the start; None ends it.
@@ -285,7 +317,7 @@ class Session(RuleCommands):
         if name is None:
             self.rival = None
             return
-        rule_set = rivals_offered(self.document, self.runs).get(name)
+        rule_set = rivals_offered(self.document, self.runs, self.vocabulary).get(name)
         if rule_set is None:
             self.rival_problem = f"{name!r} is no longer there to compare with"
             return
@@ -295,7 +327,7 @@ class Session(RuleCommands):
 
     def _rules_of(self, rival: Rival) -> RuleSet:
         """The rules that the rival's name stands for now; its old ones if there are none."""
-        offered = rivals_offered(self.document, self.runs)
+        offered = rivals_offered(self.document, self.runs, self.vocabulary)
         return offered.get(rival.name, rival.swarm.world.rule_set)
 
     # --- commands: hands in the arena ---------------------------------------------------------
@@ -336,12 +368,12 @@ class Session(RuleCommands):
     def _follow_document(self) -> None:
         document = self.document
         self.journal.keep(document.unsaved)
-        self.insight.look_into(document.version, document.rule_set)
+        self.insight.look_into(document.version, document.rule_set, self.vocabulary)
         self.runs.follow(document.rule_set)
         if bare_rules(document.rule_set) == bare_rules(self.world.rule_set):
             return  # only words have changed
         self.world.set_rules(document.rule_set)
-        self.machine.draw(document.rule_set)
+        self.machine.draw(document.rule_set, self.vocabulary)
         if self.rival is not None and self.rival.name == BEFORE:
             self.rival.swarm.world.set_rules(self._rules_of(self.rival))
         self._judge()
@@ -350,6 +382,11 @@ class Session(RuleCommands):
         """Begin to find out what each piece of the rules is worth."""
         document = self.document
         self.worth.ask(WorthQuestion(document.version, document.rule_set, self.scenario))
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """What the rules may mention in the present scenario."""
+        return self.world.vocabulary
 
     def _judge(self) -> None:
         document = self.document

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from geswarm.exports import brief_svg
-from geswarm.rules import RuleSet, StateMachine
+from geswarm.rules import RuleSet, StateMachine, Vocabulary
 from geswarm.sim import World
 
 from .background import Newest, Stop
@@ -50,11 +50,11 @@ class MachineDrawer:
 
     def __init__(self) -> None:
         self.drawn: DrawnMachine | None = None
-        self._newest: Newest[RuleSet] = Newest("states", self._draw)
+        self._newest: Newest[tuple[RuleSet, Vocabulary]] = Newest("states", self._draw)
 
-    def draw(self, rule_set: RuleSet) -> None:
+    def draw(self, rule_set: RuleSet, vocabulary: Vocabulary) -> None:
         """Begin at once; what was under way is dropped."""
-        self._newest.ask(rule_set)
+        self._newest.ask((rule_set, vocabulary))
 
     def close(self) -> None:
         """End the thread."""
@@ -65,13 +65,13 @@ class MachineDrawer:
         drawn = self.drawn
         if drawn is None or drawn.rule_set is not world.rule_set:
             return None
-        state = world.state
-        robots = drawn.machine.robots_in_states(state.behaviour, state.internal_states)
+        robots = drawn.machine.robots_in_states(*world.numbers_in(drawn.machine.space))
         taken = drawn.machine.times_taken(world.decisions)
         return Activity(tuple(robots.tolist()), tuple(taken.tolist()))
 
-    def _draw(self, rule_set: RuleSet, stop: Stop) -> None:
-        machine = StateMachine.of(rule_set)
+    def _draw(self, question: tuple[RuleSet, Vocabulary], stop: Stop) -> None:
+        rule_set, vocabulary = question
+        machine = StateMachine.of(rule_set, vocabulary)
         drawn = DrawnMachine(rule_set, machine, brief_svg(machine))
         if not stop():
             self.drawn = drawn

@@ -15,14 +15,14 @@ import numpy.typing as npt
 
 from geswarm.analysis import PairedDifference, paired_difference
 from geswarm.evaluation import evaluate_rule_sets
-from geswarm.rules import ControlTable, RuleSet, load_preset
-from geswarm.sim import EvaluationStopped, Scenario
+from geswarm.rules import ControlTable, RuleSet
+from geswarm.sim import EvaluationStopped, Scenario, vocabulary_of
 
 from .background import Newest, Stop
+from .references import references_of
 
 RUNS = 50
 _FIRST_RUNS = 10  # the first look at every sample; then all of them in full
-_REFERENCES = ("evo8", "hand-coded")
 _CACHED_SAMPLES = 500
 
 
@@ -50,12 +50,12 @@ class Sample:
     Attributes:
         role: `current`, `before`, or the name of a preset.
         name: For people.
-        collected: Objects collected per run, shape (runs so far,).
+        fitness: Value of the objective in each run, shape (runs so far,).
     """
 
     role: str
     name: str
-    collected: npt.NDArray[np.int64]
+    fitness: npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -80,9 +80,9 @@ def compared(samples: tuple[Sample, ...]) -> dict[str, PairedDifference]:
     current, *others = samples
     found = {}
     for other in others:
-        runs = min(len(current.collected), len(other.collected))
+        runs = min(len(current.fitness), len(other.fitness))
         if runs > 1:
-            found[other.role] = paired_difference(current.collected[:runs], other.collected[:runs])
+            found[other.role] = paired_difference(current.fitness[:runs], other.fitness[:runs])
     return found
 
 
@@ -97,7 +97,7 @@ class Judge:
     def __init__(self, workers: int = 1) -> None:
         self.workers = workers
         self.answer: Answer | None = None
-        self._samples: OrderedDict[bytes, npt.NDArray[np.int64]] = OrderedDict()
+        self._samples: OrderedDict[bytes, npt.NDArray[np.float64]] = OrderedDict()
         self._newest = Newest("verdict", self._answer)
 
     def ask(self, question: VerdictQuestion) -> None:
@@ -134,13 +134,13 @@ class Judge:
         (evaluation,) = evaluate_rule_sets(
             [rule_set], scenario, runs, workers=self.workers, stop=stop
         )
-        self._samples[key] = evaluation.collected
+        self._samples[key] = evaluation.fitness
         while len(self._samples) > _CACHED_SAMPLES:
             self._samples.popitem(last=False)
 
     def _known(self, question: VerdictQuestion) -> tuple[Sample, ...]:
         """The samples so far; the rules now always come first, even while they have no run."""
-        nothing = np.zeros(0, dtype=np.int64)
+        nothing = np.zeros(0)
         return tuple(
             Sample(role, name, self._samples.get(_key(rule_set, question.scenario), nothing))
             for role, name, rule_set in contestants(question)
@@ -152,13 +152,13 @@ def contestants(question: VerdictQuestion) -> list[tuple[str, str, RuleSet]]:
     found = [("current", "these rules", question.rule_set)]
     if question.before is not None:
         found.append(("before", "before the edit", question.before))
-    for name in _REFERENCES:
-        preset = load_preset(name)
-        found.append((name, preset.name, preset))
+    for name, reference in references_of(question.scenario).items():
+        found.append((name, reference.name, reference))
     return found
 
 
 def _key(rule_set: RuleSet, scenario: Scenario) -> bytes:
     """Rule sets that behave alike share their runs; a digest, as the whole takes 20 kB."""
-    table = ControlTable.compile(rule_set).probabilities.tobytes()
-    return blake2b(table + scenario.to_yaml().encode()).digest()
+    table = ControlTable.compile(rule_set, vocabulary_of(scenario))
+    decided = table.space.signature.encode() + table.probabilities.tobytes()
+    return blake2b(decided + scenario.to_yaml().encode()).digest()

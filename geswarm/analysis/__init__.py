@@ -1,4 +1,4 @@
-"""What runs mean: statistics over samples of collected objects, and what made the difference.
+"""What runs mean: statistics over samples of fitness, and what made the difference.
 
 Figures are plotly figures, which notebooks show by themselves:
 

@@ -36,7 +36,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Worth:
-    """What removing a piece does to the collected objects: negative if the piece is good."""
+    """What removing a piece does to the objective: negative if the piece is good."""
 
     piece: Piece
     change: PairedDifference
@@ -83,10 +83,10 @@ def worth_of_pieces(
         EvaluationStopped: `stop` returned True.
     """
 
-    def collected(version: RuleSet) -> Any:
+    def gains(version: RuleSet) -> Any:
         (evaluation,) = evaluate_rule_sets([version], scenario, runs, seed, workers, stop)
-        return evaluation.collected
+        return evaluation.gains
 
-    whole = collected(rule_set)
+    whole = gains(rule_set)
     for piece in pieces(rule_set):
-        yield Worth(piece, paired_difference(collected(without(rule_set, piece)), whole))
+        yield Worth(piece, paired_difference(gains(without(rule_set, piece)), whole))

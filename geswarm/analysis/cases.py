@@ -1,4 +1,4 @@
-"""Rule sets in scenarios: run each combination, and compare what was collected."""
+"""Rule sets in scenarios: run each combination, and compare what came of it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Case:
 
 
 Samples: TypeAlias = dict[Case, Evaluation]
-"""What each case collected, run by run."""
+"""What came of each case, run by run."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def run_cases(
 
 def contrasts(samples: Samples, pairs: Sequence[tuple[Case, Case]]) -> list[Contrast]:
     """Compare the cases of each pair; all pairs together are the family that is corrected for."""
-    found = [compare(samples[a].collected, samples[b].collected) for a, b in pairs]
+    found = [compare(samples[a].gains, samples[b].gains) for a, b in pairs]
     corrected = holm([comparison.p_value for comparison in found])
     return [
         Contrast(a, b, comparison, p_holm)

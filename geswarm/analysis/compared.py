@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,6 +11,7 @@ from html import escape
 from typing import Any
 
 from geswarm.analysis.cases import Case, Contrast, Samples, contrasts
+from geswarm.evaluation import shown
 from geswarm.rules import RuleSet
 
 HEADINGS = ("scenario", "rules", "mean", "median", "sd", "p", "p (Holm)", "effect")
@@ -17,11 +20,11 @@ HEADINGS = ("scenario", "rules", "mean", "median", "sd", "p", "p (Holm)", "effec
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """What was run, what it collected, and how it compares.
+    """What was run, what came of it, and how it compares.
 
     Attributes:
         rule_sets: By the names that the cases use.
-        samples: What each case collected; every scenario has the same rule sets, or is still
+        samples: What came of each case; every scenario has the same rule sets, or is still
             without that of the others.
         against: Name of the rule set that the others are compared with.
         runs: Simulations of each case.
@@ -48,7 +51,7 @@ class Compared:
             return ""
         return (
             f"p: two-sided Mann-Whitney against {self.against}, and corrected by Holm for all "
-            f"comparisons of this table; effect: probability that a run collects more than one of "
+            f"comparisons of this table; effect: probability that a run is better than one of "
             f"{self.against} (ties count half)."
         )
 
@@ -56,8 +59,8 @@ class Compared:
         """A line per case, under `HEADINGS`."""
         rows: list[Sequence[str]] = []
         for case, evaluation in self.samples.items():
-            found = evaluation.summary()
-            figures = [f"{found[key]:.1f}" for key in ("mean", "median", "sd")]
+            found = evaluation.figures()
+            figures = [shown(found[key]) for key in ("mean", "median", "sd")]
             contrast = self.contrasts.get(case)
             if contrast is None:
                 compared = ["", "", ""]
@@ -85,6 +88,29 @@ class Compared:
             )
         return {"runs": self.runs, "seed": self.seed, "results": results}
 
+    @property
+    def objective(self) -> str:
+        """What the figures are of, for titles."""
+        labels = [evaluation.objective.label for evaluation in self.samples.values()]
+        return " / ".join(dict.fromkeys(labels))
+
+    def csv(self) -> str:
+        """One line per run: fitness and all measures; what a scenario does not count is empty."""
+        counted = [name for evaluation in self.samples.values() for name in evaluation.measures]
+        names = list(dict.fromkeys(counted))
+        lines = io.StringIO()
+        writer = csv.writer(lines, lineterminator="\n")
+        writer.writerow(("rules", "scenario", "robots", "run", "fitness", *names))
+        for case, evaluation in self.samples.items():
+            for run, fitness in enumerate(evaluation.fitness.tolist()):
+                measures = [
+                    evaluation.measures[name][run].item() if name in evaluation.measures else ""
+                    for name in names
+                ]
+                where = case.scenario
+                writer.writerow((case.rules, where.name, where.robots, run, fitness, *measures))
+        return lines.getvalue()
+
     def page(self) -> str:
         """A page that needs nothing else: box plots, the table, and the rules."""
         from geswarm.analysis.figures import box_plots
@@ -98,10 +124,10 @@ class Compared:
             f"<div><h3>{escape(name)}</h3>\n{format_html(rule_set)}</div>"
             for name, rule_set in self.rule_sets.items()
         )
-        body = f"""<h1>Collected objects</h1>
-{figure_html(figure, "collected", caption)}
+        body = f"""<h1>Compared rule sets</h1>
+{figure_html(figure, "fitness", caption)}
 {table_html(HEADINGS, self.rows(), texts=2)}
 <p class="muted">{escape(self.explanation)}</p>
 <h2>Rules</h2>
 <div class="side-by-side rules">{tables}</div>"""
-        return page("GESwarm: collected objects", body)
+        return page("GESwarm: compared rule sets", body)

@@ -70,13 +70,13 @@ def box_plots(
     baseline: float | None = None,
     starred: Collection[str] = (),
 ) -> go.Figure:
-    """Collected objects of each case as a box; whiskers reach to 1.5 interquartile ranges.
+    """Fitness of each case as a box; whiskers reach to 1.5 interquartile ranges.
 
     Rule sets in one scenario stand side by side (paper, Figure 2b); in several scenarios they are
     told apart by colour (Figure 3).
 
     Args:
-        samples: What each case collected.
+        samples: What came of each case.
         colours: Of the rule sets, by name; by default those of `PALETTE`.
         label: What a scenario is called on the axis.
         axis: Title of the axis along which the boxes stand.
@@ -90,13 +90,14 @@ def box_plots(
     scenarios = list(dict.fromkeys(case.scenario for case in samples))
     alone = len(scenarios) == 1
     colours = _colours(names) if colours is None else colours
-    figure = _figure(axis, _COLLECTED)
+    labels = [evaluation.objective.label for evaluation in samples.values()]
+    figure = _figure(axis, " / ".join(dict.fromkeys(labels)))
     for number, name in enumerate(names):
         here = [case for case in samples if case.rules == name]
         places = [number if alone else scenarios.index(case.scenario) for case in here]
         figure.add_box(
-            x=np.repeat(places, [samples[case].collected.size for case in here]).tolist(),
-            y=np.concatenate([samples[case].collected for case in here]).tolist(),
+            x=np.repeat(places, [samples[case].fitness.size for case in here]).tolist(),
+            y=np.concatenate([samples[case].fitness for case in here]).tolist(),
             name=escape(name),
             offsetgroup="" if alone else str(number),
             marker={"color": colours[name], "size": 4},
@@ -104,7 +105,7 @@ def box_plots(
             boxpoints="outliers",
         )
         if name in starred:
-            top = max(int(samples[case].collected.max()) for case in here)
+            top = max(float(samples[case].fitness.max()) for case in here)
             star = {"text": "*", "showarrow": False, "yshift": 12, "font": {"size": 22}}
             figure.add_annotation(x=number, y=top, **star)
     ticks = names if alone else [label(scenario) for scenario in scenarios]
@@ -181,7 +182,7 @@ def _over_zone_miss(samples: Samples, rules: str) -> tuple[list[float], np.ndarr
         case.scenario.zone_miss: found for case, found in samples.items() if case.rules == rules
     }
     x = sorted(here)
-    mean = np.array([here[at].collected.mean() for at in x])
+    mean = np.array([here[at].fitness.mean() for at in x])
     return x, mean, np.array([here[at].summary()["sd"] for at in x])
 
 

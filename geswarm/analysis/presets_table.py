@@ -40,7 +40,7 @@ class Standing:
         generation: After which the best so far were taken.
         simulations: Spent until then by a run, mean; those that individuals which behave alike
             shared are counted for each.
-        means: Mean collected of each run's best, 50 simulations each.
+        means: Mean fitness of each run's best, 50 simulations each.
         beats: For each rival, how many of them collect more, p < 0.001.
     """
 
@@ -158,7 +158,7 @@ def _judge(
 
 
 def _beats(evaluation: Evaluation, rival: Evaluation) -> bool:
-    return compare(evaluation.collected, rival.collected).winner == 1
+    return compare(evaluation.gains, rival.gains).winner == 1
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@ def paired_difference(a: ArrayLike, b: ArrayLike) -> PairedDifference:
 
 
 def compare(a: ArrayLike, b: ArrayLike) -> Comparison:
-    """Compare two samples of collected objects.
+    """Compare two samples in which more is better.
 
     Raises:
         ValueError: A sample is empty.

@@ -1,4 +1,4 @@
-"""The `geswarm` verbs: evaluate, compare, reproduce, show, check, equal, export, bench.
+"""The `geswarm` verbs, from evaluate to bench.
 
 JSON goes to stdout alone, progress and warnings to stderr. Heavy modules are imported by the verb
 that needs them, so that help comes at once.
@@ -20,6 +20,7 @@ from geswarm.cli.arguments import (
 )
 from geswarm.cli.compare import add_compare
 from geswarm.cli.experiments import add_experiment_verbs
+from geswarm.cli.library import add_library_verbs
 from geswarm.cli.reproduce import add_reproduce
 from geswarm.cli.rules import add_rule_verbs
 
@@ -45,4 +46,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add_compare(verbs)
     add_reproduce(verbs)
     add_rule_verbs(verbs)
+    add_library_verbs(verbs)
     return run_command(parser, arguments)

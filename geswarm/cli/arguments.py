@@ -13,9 +13,12 @@ Verbs: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where each group of verbs adds its own."""
 
 RULES_HELP = (
-    "a preset (hand-coded, evo8, evolved), a YAML, text or JSON file, or - for standard input"
+    "a preset (hand-coded, evo8, evolved, aac, ...), a YAML, text or JSON file, or - for standard "
+    "input"
 )
-SCENARIO_HELP = "a scenario (paper, ideal-sensing, scalability-5, ...) or a YAML file"
+SCENARIO_HELP = (
+    "a scenario (paper, aac, homing, ...; `geswarm scenarios` lists them) or a YAML file"
+)
 
 
 class UsageError(Exception):

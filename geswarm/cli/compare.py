@@ -33,16 +33,21 @@ def add_compare(verbs: Verbs) -> None:
 def _compare(options: argparse.Namespace) -> int:
     from geswarm.analysis.cases import Case, run_cases
     from geswarm.analysis.compared import Compared
-    from geswarm.rules import RuleSetError, load_rule_set
-    from geswarm.sim import ScenarioError, load_scenario
+    from geswarm.rules import RuleSetError, find_rule_set
+    from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
 
     names = options.scenario or ["paper"]
     for what, given in (("rules", options.rules), ("scenario", names)):
         if twice := [one for one in given if given.count(one) > 1]:
             raise UsageError(f"{what}: expected each one once, got {twice[0]} twice")
     try:
-        rule_sets = {name: load_rule_set(name) for name in options.rules}
         scenarios = [load_scenario(name).with_changes(name=name) for name in names]
+        found = {name: find_rule_set(name) for name in options.rules}
+        read = [
+            {name: one.read(vocabulary_of(each), each.name) for name, one in found.items()}
+            for each in scenarios
+        ]
+        rule_sets = read[0]  # a rule set is the same in each vocabulary that has its words
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     if options.html is not None:
@@ -75,7 +80,7 @@ def _print_table(compared: Compared) -> None:
 
     from geswarm.analysis.compared import HEADINGS
 
-    title = f"Collected objects, {compared.runs} runs each, seed {compared.seed}"
+    title = f"{compared.objective}, {compared.runs} runs each, seed {compared.seed}"
     print_table(title, HEADINGS[:2], HEADINGS[2:], compared.rows())
     if compared.explanation:
         Console().print(compared.explanation, markup=False, highlight=False)

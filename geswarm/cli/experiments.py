@@ -32,6 +32,9 @@ def add_experiment_verbs(verbs: Verbs) -> None:
     evaluate.set_defaults(command=_evaluate)
 
     bench = verbs.add_parser("bench", help="measure the speed of everything on this machine")
+    bench.add_argument(
+        "--scenario", metavar="S", help=f"what each term costs there: {SCENARIO_HELP}"
+    )
     bench.add_argument("--json", action="store_true", help="one JSON object on stdout")
     bench.set_defaults(command=_bench)
 
@@ -40,11 +43,12 @@ def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.analysis import compare
     from geswarm.evaluation import evaluate_rule_sets
     from geswarm.rules import RuleSetError, load_rule_set
-    from geswarm.sim import ScenarioError, load_scenario
+    from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
 
     try:
-        rule_sets = [load_rule_set(reference) for reference in options.rules]
         scenario = load_scenario(options.scenario)
+        known = vocabulary_of(scenario)
+        rule_sets = [load_rule_set(each, known, options.scenario) for each in options.rules]
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     compile_first("geswarm: stopped")
@@ -58,7 +62,7 @@ def _evaluate(options: argparse.Namespace) -> int:
             on_progress=on_progress,
         )
     pairs = [
-        (a, b, compare(evaluations[a].collected, evaluations[b].collected))
+        (a, b, compare(evaluations[a].gains, evaluations[b].gains))
         for a in range(len(evaluations))
         for b in range(a + 1, len(evaluations))
     ]
@@ -67,6 +71,7 @@ def _evaluate(options: argparse.Namespace) -> int:
             "scenario": options.scenario,
             "runs": options.runs,
             "seed": options.seed,
+            "objective": scenario.objective.document(),
             "results": [
                 {"rules": name, **evaluation.summary()}
                 for name, evaluation in zip(options.rules, evaluations, strict=True)
@@ -94,13 +99,16 @@ def _print_evaluations(
 ) -> None:
     from rich.console import Console
 
-    title = f"Collected objects, scenario {options.scenario}, {options.runs} runs each"
-    summaries = [evaluation.summary() for evaluation in evaluations]
+    from geswarm.evaluation import shown
+
+    objective = evaluations[0].objective
+    title = f"{objective.label}, scenario {options.scenario}, {options.runs} runs each"
+    figures = [evaluation.figures() for evaluation in evaluations]
     rows = [
-        [name, *(f"{summary[key]:.1f}" for key in ("mean", "sd", "median", "lost_mean"))]
-        for name, summary in zip(options.rules, summaries, strict=True)
+        [name, *map(shown, found.values())]
+        for name, found in zip(options.rules, figures, strict=True)
     ]
-    print_table(title, ["rules"], ["mean", "sd", "median", "lost (mean)"], rows)
+    print_table(title, ["rules"], [name.replace("_mean", " (mean)") for name in figures[0]], rows)
     console = Console(markup=False, emoji=False)
     for a, b, comparison in pairs:
         ahead, behind, effect = a, b, comparison.effect
@@ -114,7 +122,44 @@ def _print_evaluations(
 
 
 def _bench(options: argparse.Namespace) -> int:
+    if options.scenario is not None:
+        return _bench_scenario(options)
     from geswarm.bench import command
 
-    print(command(options.json, lambda line: print(line, file=sys.stderr)))
+    print(command(options.json, _say))
     return 0
+
+
+def _bench_scenario(options: argparse.Namespace) -> int:
+    from geswarm.costs import measure_costs
+    from geswarm.sim import ScenarioError, load_scenario
+
+    try:
+        scenario = load_scenario(options.scenario)
+    except ScenarioError as error:
+        raise UsageError(str(error)) from error
+    costs = measure_costs(scenario, _say)
+    document = costs.document()
+    if options.json:
+        print(json.dumps(document))
+        return 0
+    rules = f"rules {costs.rules}" if costs.rules else "no rules"
+    print(
+        f"{options.scenario}, {scenario.robots} robots, {rules}: "
+        f"{costs.nanoseconds:.1f} ns per robot and control step\n"
+    )
+    rows = [
+        [each["name"], each["kind"], *(_ns(each[key]) for key in ("ns_without", "costs_ns"))]
+        for each in document["terms"]
+    ]
+    print_table("Each term left out", ["term", "kind"], ["ns without", "costs ns"], rows)
+    return 0
+
+
+def _ns(value: float | None) -> str:
+    """Nanoseconds; a dash where there is no doing without."""
+    return "-" if value is None else f"{value:.1f}"
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

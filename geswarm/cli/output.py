@@ -112,6 +112,29 @@ def print_table(
     console.print(table)
 
 
+def print_texts(title: str, headings: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table of texts, which wrap where the terminal ends; lines of a text are kept.
+
+    Args:
+        title: What it shows.
+        headings: Of the columns.
+        rows: A text for each column.
+    """
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(
+        title=Text(title), box=SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0), pad_edge=False
+    )
+    for heading in headings:
+        table.add_column(heading, overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    Console().print(table)
+
+
 def progress_columns(count: Callable[..., ProgressColumn], text: str) -> list[ProgressColumn]:
     """A count, a bar, a text and the time left, for an expanded `Progress`.
 

@@ -11,7 +11,7 @@ True
 
 from geswarm.evolution.cluster import ClusterError, cluster_executor
 from geswarm.evolution.composition import Composition, InjectionError
-from geswarm.evolution.fitness import EvaluationError, ForagingFitness
+from geswarm.evolution.fitness import EvaluationError, ScenarioFitness
 from geswarm.evolution.grammar import rule_grammar
 from geswarm.evolution.population import Member, Population
 from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError, version_remarks
@@ -21,12 +21,12 @@ __all__ = [
     "Composition",
     "EvaluationError",
     "EvolutionRun",
-    "ForagingFitness",
     "InjectionError",
     "Member",
     "Population",
     "RunConfig",
     "RunConfigError",
+    "ScenarioFitness",
     "cluster_executor",
     "rule_grammar",
     "version_remarks",

@@ -12,10 +12,19 @@ from functools import lru_cache
 import numpy as np
 
 from geswarm.evolution.grammar import rule_grammar
-from geswarm.ge import NotASentenceError, genome_of
-from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, format_text, parse_text
+from geswarm.ge import Grammar, NotASentenceError, genome_of
+from geswarm.rules import (
+    FORAGING,
+    ControlTable,
+    Rule,
+    RuleSet,
+    Vocabulary,
+    format_text,
+    parse_text,
+)
 from geswarm.rules.elements import format_probability
 from geswarm.rules.reachability import reachable_situations
+from geswarm.sim import Scenario, vocabulary_of
 
 
 class InjectionError(ValueError):
@@ -28,9 +37,21 @@ class Composition:
 
     Attributes:
         frozen: The rules that come first; usually none.
+        vocabulary: What rules may mention.
     """
 
     frozen: tuple[Rule, ...] = ()
+    vocabulary: Vocabulary = FORAGING
+
+    @classmethod
+    def of(cls, scenario: Scenario, frozen: tuple[Rule, ...] = ()) -> Composition:
+        """What phenotypes become in a scenario."""
+        return cls(frozen, vocabulary_of(scenario))
+
+    @property
+    def grammar(self) -> Grammar:
+        """The grammar of the phenotypes."""
+        return rule_grammar(self.vocabulary)
 
     def rule_set(self, phenotype: str) -> RuleSet:
         """The whole rule set."""
@@ -52,11 +73,11 @@ class Composition:
             raise InjectionError(f"expected more than {frozen} rules switched on, got {len(rules)}")
         for number, rule in enumerate(rules[frozen:], start=frozen + 1):
             for action in rule.actions:
-                _require_listed(action.p, number)
+                _require_listed(action.p, number, self.vocabulary)
         text = format_text(RuleSet(rules[frozen:])).removeprefix('name ""')
         phenotype = " ".join(text.split())
         try:
-            genome_of(rule_grammar(), phenotype)
+            genome_of(self.grammar, phenotype)
         except NotASentenceError as error:
             raise InjectionError(f"the grammar does not derive these rules: {error}") from error
         return phenotype
@@ -69,8 +90,8 @@ class Composition:
         return _behaviour(self, phenotype)
 
 
-def _require_listed(p: float, rule: int) -> None:
-    listed = FORAGING.probabilities
+def _require_listed(p: float, rule: int, vocabulary: Vocabulary) -> None:
+    listed = vocabulary.probabilities
     if p not in listed:
         nearest = format_probability(min(listed, key=lambda one: abs(one - p)))
         raise InjectionError(
@@ -85,12 +106,14 @@ def _bare(rule: Rule) -> Rule:
 
 @lru_cache(maxsize=1024)  # evolution asks for its behaviour, then runs it
 def _rule_set(composition: Composition, phenotype: str) -> RuleSet:
-    return RuleSet((*composition.frozen, *parse_text(phenotype).rules))
+    return RuleSet(
+        (*composition.frozen, *parse_text(phenotype, vocabulary=composition.vocabulary).rules)
+    )
 
 
 @lru_cache(maxsize=4096)
 def _behaviour(composition: Composition, phenotype: str) -> bytes:
-    table = ControlTable.compile(composition.rule_set(phenotype))
+    table = ControlTable.compile(composition.rule_set(phenotype), composition.vocabulary)
     decisions = table.by_percepts.round(12)
     reachable = reachable_situations(decisions, table.space)
     told_apart = table.space.signature.encode()

@@ -1,10 +1,10 @@
-"""What a phenotype is worth: the objects that a swarm under its rules collects."""
+"""What a phenotype is worth: the objective of a swarm under its rules."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import CancelledError, Executor, wait
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from geswarm import __version__
 from geswarm.evolution.composition import Composition
 from geswarm.ge import Individual, Stopped
+from geswarm.rules import Rule
 from geswarm.sim import EvaluationStopped, Scenario, Simulation, Stop, evaluate
 
 _SHARE_ROBOT_STEPS = 8_000_000  # what is sent to an executor at once: a fraction of a second's work
@@ -23,20 +24,20 @@ class EvaluationError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class ForagingFitness:
-    """Fitness of phenotypes: mean of the objects collected (paper, section 3.1.2).
+class ScenarioFitness:
+    """Fitness of phenotypes: mean of the scenario's objective, less if that is to be minimised.
 
     A fitness depends on seed, generation and individual alone (with common random numbers: on seed,
     generation and behaviour), not on where it is evaluated or who else is.
 
     Attributes:
-        scenario: Where they forage.
+        scenario: Where they act.
         seed: Keys the random streams, together with generation, individual and replicate.
         evaluations: Simulations per individual.
         workers: Threads, if there is no executor; None for one per core.
         stop: Asked now and then; True ends the evaluation.
         common_random_numbers: The streams are keyed by the generation, not by the individual.
-        composition: What a phenotype becomes.
+        frozen: Rules that stand before the evolved ones.
         executor: Evaluates in shares, anywhere: what travels is text and numbers.
     """
 
@@ -46,11 +47,11 @@ class ForagingFitness:
     workers: int | None = None
     stop: Stop | None = None
     common_random_numbers: bool = False
-    composition: Composition = field(default_factory=Composition)
+    frozen: tuple[Rule, ...] = ()
     executor: Executor | None = None
 
     def __call__(self, generation: int, individuals: Sequence[Individual]) -> list[float]:
-        """Mean collected of each individual over `evaluations` simulations.
+        """Mean gain of each individual over `evaluations` simulations, more is better.
 
         Raises:
             Stopped: `stop` returned True.
@@ -68,19 +69,20 @@ class ForagingFitness:
             for one in individuals
             for replicate in range(self.evaluations)
         ]
-        collected = (self._here if self.executor is None else self._elsewhere)(phenotypes, todo)
-        per_individual = collected.reshape(len(individuals), self.evaluations)
+        gains = (self._here if self.executor is None else self._elsewhere)(phenotypes, todo)
+        per_individual = gains.reshape(len(individuals), self.evaluations)
         return [float(mean) for mean in per_individual.mean(axis=1)]
 
-    def _here(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.int64]:
-        rule_sets = [self.composition.rule_set(phenotype) for phenotype in phenotypes]
+    def _here(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.float64]:
+        composition = Composition.of(self.scenario, self.frozen)
+        rule_sets = [composition.rule_set(phenotype) for phenotype in phenotypes]
         try:
             result = evaluate(rule_sets, self.scenario, todo, workers=self.workers, stop=self.stop)
         except EvaluationStopped as error:
             raise Stopped from error
-        return result.collected
+        return self.scenario.objective.gain(result.fitness)
 
-    def _elsewhere(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.int64]:
+    def _elsewhere(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.float64]:
         """The same in shares, by the executor; a share names only the phenotypes that it needs."""
         assert self.executor is not None
         size = max(1, _SHARE_ROBOT_STEPS // (self.scenario.robots * self.scenario.steps))
@@ -93,7 +95,7 @@ class ForagingFitness:
                 texts = [phenotypes[at] for at in needed]
                 futures.append(
                     self.executor.submit(
-                        simulate_share, __version__, self.scenario, self.composition, texts, moved
+                        simulate_share, __version__, self.scenario, self.frozen, texts, moved
                     )
                 )
             waiting = set(futures)
@@ -124,26 +126,27 @@ def _why(error: Exception) -> str:
 def simulate_share(
     version: str,
     scenario: Scenario,
-    composition: Composition,
+    frozen: tuple[Rule, ...],
     phenotypes: Sequence[str],
     simulations: Sequence[Simulation],
-) -> npt.NDArray[np.int64]:
+) -> npt.NDArray[np.float64]:
     """What an executor's worker does: run simulations in one thread.
 
     Args:
         version: GESwarm's version where the evolution runs.
         scenario: The scenario.
-        composition: What a phenotype becomes.
+        frozen: Rules that stand before the evolved ones.
         phenotypes: What `Simulation.table` is an index into.
         simulations: The runs.
 
     Returns:
-        Objects collected, int64, shape (simulations,).
+        Gains, float64, shape (simulations,).
 
     Raises:
         RuntimeError: This machine has another version, whose results could differ.
     """
     if version != __version__:
         raise RuntimeError(f"expected GESwarm {version} on every worker, found {__version__}")
+    composition = Composition.of(scenario, frozen)
     rule_sets = [composition.rule_set(phenotype) for phenotype in phenotypes]
-    return evaluate(rule_sets, scenario, simulations, workers=1).collected
+    return scenario.objective.gain(evaluate(rule_sets, scenario, simulations, workers=1).fitness)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from importlib import resources
 
 from geswarm.ge import Grammar
@@ -12,6 +13,7 @@ from geswarm.rules.elements import format_probability
 from geswarm.rules.model import Value, format_value
 
 
+@lru_cache(maxsize=64)
 def rule_grammar(vocabulary: Vocabulary = FORAGING) -> Grammar:
     """The grammar whose sentences are the rule sets that a vocabulary allows (section 2.2)."""
     text = resources.files(__package__).joinpath("geswarm.bnf").read_text(encoding="utf-8")

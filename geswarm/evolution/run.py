@@ -12,8 +12,7 @@ import yaml
 
 from geswarm import __version__
 from geswarm.evolution.composition import Composition
-from geswarm.evolution.fitness import ForagingFitness
-from geswarm.evolution.grammar import rule_grammar
+from geswarm.evolution.fitness import ScenarioFitness
 from geswarm.evolution.population import Population
 from geswarm.ge import (
     Engine,
@@ -31,6 +30,7 @@ from geswarm.ge import (
     evolve,
 )
 from geswarm.rules import (
+    FORAGING,
     Origin,
     Rule,
     RuleSet,
@@ -40,7 +40,7 @@ from geswarm.rules import (
     plain_yaml,
 )
 from geswarm.rules.library import write_whole
-from geswarm.sim import Scenario, Stop, parse_scenario
+from geswarm.sim import Scenario, Stop, parse_scenario, vocabulary_of
 
 
 class RunConfigError(ValueError):
@@ -68,7 +68,7 @@ class RunConfig:
     @property
     def composition(self) -> Composition:
         """What a phenotype becomes."""
-        return Composition(self.frozen)
+        return Composition.of(self.scenario, self.frozen)
 
     def to_yaml(self) -> str:
         """The text of config.yaml, everything resolved."""
@@ -105,11 +105,13 @@ class RunConfig:
                         began = f" (of GESwarm {version}; this is {__version__})"
                     if unknown := [str(key) for key in document if key not in _CONFIG_KEYS]:
                         raise ValueError(f"unknown: {', '.join(unknown)}")
+                    where = parse_scenario(yaml.safe_dump(scenario), name)
+                    known = vocabulary_of(where)
                     return cls(
-                        scenario=parse_scenario(yaml.safe_dump(scenario), name),
+                        scenario=where,
                         settings=Settings.of(**{str(key): settings[key] for key in settings}),
                         seed=seed,
-                        frozen=parse_text(frozen).rules if frozen else (),
+                        frozen=parse_text(frozen, vocabulary=known).rules if frozen else (),
                         version=version,
                     )
             raise ValueError(f"expected {', '.join(_CONFIG_KEYS)}")
@@ -153,7 +155,8 @@ class EvolutionRun:
         """
         store = RunStore.create(directory, config.to_yaml())
         identity = config.composition.behaviour
-        engine = Engine(rule_grammar(), config.settings, config.seed, identity)
+        grammar = config.composition.grammar
+        engine = Engine(grammar, config.settings, config.seed, identity)
         return cls(config, store, engine)
 
     @classmethod
@@ -195,7 +198,7 @@ class EvolutionRun:
             config = RunConfig.from_yaml(store.config)
             state = store.checkpoint()
             identity = config.composition.behaviour
-            parameters = rule_grammar(), config.settings, config.seed
+            parameters = config.composition.grammar, config.settings, config.seed
             if state is None:
                 engine = Engine(*parameters, identity)
             else:
@@ -241,10 +244,13 @@ class EvolutionRun:
         best = self._engine.best
         if best is None or best.phenotype is None:
             return None
-        origin = Origin(run=str(self.directory), generation=best.generation, fitness=best.fitness)
+        fitness = self.config.scenario.objective.gain(best.value)
+        origin = Origin(run=str(self.directory), generation=best.generation, fitness=fitness)
         name = f"Evolved, seed {self.config.seed}, generation {best.generation}"
-        rule_set = self.config.composition.rule_set(best.phenotype)
-        return replace(rule_set, name=name, origin=origin)
+        composition = self.config.composition
+        scenario = "" if composition.vocabulary is FORAGING else self.config.scenario.name
+        rule_set = composition.rule_set(best.phenotype)
+        return replace(rule_set, name=name, origin=origin, scenario=scenario)
 
     def population(self) -> Population:
         """The individuals of the last finished generation and how they differ."""
@@ -308,14 +314,14 @@ class EvolutionRun:
             if on_generation:
                 on_generation(record)
 
-        fitness = ForagingFitness(
+        fitness = ScenarioFitness(
             self.config.scenario,
             self.config.seed,
             self.config.settings.evaluations,
             workers,
             stop,
             self.config.settings.common_random_numbers,
-            self.config.composition,
+            self.config.frozen,
             executor,
         )
         return evolve(

@@ -7,33 +7,38 @@ this module. Semantics and parameters are those of the model (paper, section 3.1
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
 
+from geswarm.exports.counterparts import require_counterparts
 from geswarm.rules.elements import format_probability
 from geswarm.rules.english import describe_rule
 from geswarm.rules.model import Action, Precondition, Rule, RuleSet, format_value
 from geswarm.rules.names import require_known_names
-from geswarm.rules.vocabulary import FORAGING
-from geswarm.sim import Scenario
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
+from geswarm.sim import Scenario, vocabulary_of
 
 _TEMPLATE = Path(__file__).parent / "footbot.lua"
 _WIDTH = 94
 """Characters of a line of a comment, without the dashes."""
+_KNOWN = (*FORAGING.behaviour_names, *FORAGING.percepts, *FORAGING.state_names)
 
 
 def format_argos_lua(rule_set: RuleSet, scenario: Scenario) -> str:
     """The controller script.
 
     Raises:
-        RuleSetError: A name is not in the foraging vocabulary or a p is outside [0, 1].
+        RuleSetError: A p is outside [0, 1].
+        CounterpartError: It mentions a term that is none of foraging's.
     """
-    require_known_names(rule_set)
+    require_counterparts(rule_set, "the controller script", _KNOWN)
+    require_known_names(replace(rule_set, rules=rule_set.active_rules))
     parts = {
         "HEADER": _header(rule_set),
         "PARAMETERS": _parameters(scenario),
-        "RULES": _rules(rule_set),
-        "START": _start(),
+        "RULES": _rules(rule_set, vocabulary_of(scenario)),
+        "START": _start(scenario),
         "CLEAR": _clear(),
     }
     lines: list[str] = []
@@ -61,14 +66,18 @@ def _parameters(scenario: Scenario) -> Iterator[str]:
         ("MAX_SPEED", scenario.max_speed, "m/s, of a wheel"),
         ("TURN_GAIN", scenario.turn_gain, "1/s, turning speed per angle"),
         ("PROXIMITY_RANGE", scenario.proximity_range, "m, at which a wall is avoided"),
-        ("RAB_RANGE", scenario.rab_range, "m, at which another robot is avoided"),
+        (
+            "RAB_RANGE",
+            scenario.avoidance_range or scenario.rab_range,
+            "m, at which another robot is avoided",
+        ),
         ("AVOIDANCE_GAIN", scenario.avoidance_gain, "weight of avoidance"),
     ):
         yield f"{f'local {name} = {format_probability(value)}':<34} -- {meaning}"
 
 
-def _start() -> Iterator[str]:
-    yield f'  BEHAVIOUR = "{FORAGING.initial_behaviour}"'
+def _start(scenario: Scenario) -> Iterator[str]:
+    yield f'  BEHAVIOUR = "{scenario.initial_behaviour}"'
     for state in FORAGING.internal_states:
         yield f"  {state.name} = {format_value(state.initially)}"
 
@@ -79,11 +88,11 @@ def _clear() -> Iterator[str]:
             yield f"  {state.name} = false"
 
 
-def _rules(rule_set: RuleSet) -> Iterator[str]:
+def _rules(rule_set: RuleSet, vocabulary: Vocabulary) -> Iterator[str]:
     for number, rule in enumerate(rule_set.rules, start=1):
         if number > 1:
             yield ""
-        yield from _comment(f"R{number}: {rule.comment or describe_rule(rule)}", "  ")
+        yield from _comment(f"R{number}: {rule.comment or describe_rule(rule, vocabulary)}", "  ")
         if rule.enabled:
             yield from _rule(rule)
         else:

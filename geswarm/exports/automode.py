@@ -14,9 +14,12 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from geswarm.exports.counterparts import CounterpartError, require_counterparts
 from geswarm.rules.elements import format_probability
+from geswarm.rules.findings import Finding, Place
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine, Transition
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _BEHAVIOURS = {"RANDOM_WALK": 0, "PHOTOTAXIS": 2, "ANTI-PHOTOTAXIS": 3}
 _RANDOM_WALK_STEPS = 50  # longest turn of AutoMoDe's exploration, the middle of its range
@@ -26,6 +29,7 @@ _FLOORS = (
     (2, {"ON_NEST": True, "ON_SOURCE": False, "HAS_OBJECT": False}),
 )
 _ANY_FLOOR = 5
+_KNOWN = (*_BEHAVIOURS, *FORAGING.percepts, *FORAGING.state_names)
 
 
 @dataclass(frozen=True)
@@ -41,13 +45,18 @@ class AutoMoDe:
     warnings: tuple[str, ...]
 
 
-def to_automode(rule_set: RuleSet) -> AutoMoDe:
+def to_automode(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> AutoMoDe:
     """Translate a rule set.
 
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
+        CounterpartError: It mentions a term that is none of foraging's.
     """
-    machine = StateMachine.of(rule_set)
+    require_counterparts(rule_set, "AutoMoDe", _KNOWN)
+    if vocabulary.initial_behaviour not in _BEHAVIOURS:
+        message = f"{vocabulary.initial_behaviour} has no counterpart in AutoMoDe"
+        raise CounterpartError([Finding(Place(element="initial_behaviour"), message)])
+    machine = StateMachine.of(rule_set, vocabulary)
     order = sorted(range(len(machine.states)), key=lambda at: (not machine.states[at].initial, at))
     words = ["--fsm-config", "--nstates", str(len(order))]
     for number, state in enumerate(order):
@@ -55,9 +64,9 @@ def to_automode(rule_set: RuleSet) -> AutoMoDe:
     return AutoMoDe(" ".join(words), tuple(dict.fromkeys(_warnings(machine))))
 
 
-def format_automode(rule_set: RuleSet) -> str:
-    """The command line alone, on one line."""
-    return to_automode(rule_set).command + "\n"
+def format_automode(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:
+    """The command line alone, on one line; errors as for `to_automode`."""
+    return to_automode(rule_set, vocabulary).command + "\n"
 
 
 def _state_words(

@@ -8,15 +8,16 @@ from geswarm.exports.layout import Lines, label_lines
 from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 
-def format_dot(rule_set: RuleSet) -> str:
+def format_dot(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:
     """The state machine of a rule set as a DOT graph.
 
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
-    return "\n".join(_lines(StateMachine.of(rule_set))) + "\n"
+    return "\n".join(_lines(StateMachine.of(rule_set, vocabulary))) + "\n"
 
 
 def _lines(machine: StateMachine) -> Iterator[str]:

@@ -5,6 +5,7 @@ All lengths are in pixels, x to the right and y down.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -16,7 +17,8 @@ Path: TypeAlias = tuple[Point, ...]
 CORNER = 29.0
 """Radius of a state's corners."""
 _LOOP_HEIGHT, _LOOP_FOOT = 62.0, 38.0
-_SAMPLES = 40
+SAMPLES = 40
+"""Of a curve: it has one point more."""
 _HALVINGS = 24  # until a crossing of a border is known to far less than a pixel
 
 
@@ -117,7 +119,22 @@ def _between_borders(curve: Callable[[float], Point], start: Box, end: Box, gaps
         return outside
 
     first, last = crossing(start, gaps[0], 0.0), crossing(end, gaps[1], 1.0)
-    return tuple(curve(first + (last - first) * at / _SAMPLES) for at in range(_SAMPLES + 1))
+    return tuple(curve(first + (last - first) * at / SAMPLES) for at in range(SAMPLES + 1))
+
+
+def evenly(points: Path, parts: int) -> Path:
+    """The same curve in so many parts of equal length."""
+    lengths = [math.dist(*pair) for pair in itertools.pairwise(points)]
+    along = [0.0, *itertools.accumulate(lengths)]
+    found, part = [], 0
+    for at in range(parts + 1):
+        wanted = along[-1] * at / parts
+        while part < len(lengths) - 1 and along[part + 1] < wanted:
+            part += 1
+        share = (wanted - along[part]) / (lengths[part] or 1.0)
+        (x, y), (next_x, next_y) = points[part], points[part + 1]
+        found.append((x + share * (next_x - x), y + share * (next_y - y)))
+    return tuple(found)
 
 
 def normal(path: Path, at: int) -> Point:

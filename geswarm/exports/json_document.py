@@ -13,11 +13,12 @@ from pathlib import Path
 from geswarm.rules.as_json import SCHEMA, Json, rule_set_to_json
 from geswarm.rules.model import CONTROL_STEP, RuleSet
 from geswarm.rules.state_machine import StateMachine, Transition
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA_FILE = Path(__file__).parent / "rule-set.schema.json"
 
 
-def format_json_document(rule_set: RuleSet) -> str:
+def format_json_document(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:
     """Rules and state machine as JSON text, with a line for each state and transition.
 
     Raises:
@@ -25,7 +26,7 @@ def format_json_document(rule_set: RuleSet) -> str:
     """
     rules = {"schema": SCHEMA, **rule_set_to_json(rule_set)}
     head = json.dumps(rules, indent=2, ensure_ascii=False).removesuffix("\n}")
-    machine = machine_to_json(StateMachine.of(rule_set))
+    machine = machine_to_json(StateMachine.of(rule_set, vocabulary))
     parts = [
         f'"step_seconds": {machine["step_seconds"]}',
         *(f'"{key}": {_lines(machine[key])}' for key in ("states", "transitions")),

@@ -2,19 +2,21 @@
 
 Text stands at the arrows. If there is no room for all of it without covering something else, a
 brief picture gets wider; in a full one arrows are numbered, and the text stands in a list below.
+Machines of many states are laid out by Graphviz, if it is installed; else all is listed.
 All lengths are in pixels, x to the right and y down; the layout is deterministic.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import TypeAlias
 
+from geswarm.exports import graphviz
 from geswarm.exports.geometry import Box, Path, Point, bowed, loops
-from geswarm.exports.placing import clearest, in_columns, place_badges, place_labels
+from geswarm.exports.placing import badges_apart, clearest, in_columns, place_badges, place_labels
 from geswarm.rules.state_machine import State, StateMachine, Transition
 
 Lines: TypeAlias = tuple[str, ...]
@@ -29,6 +31,9 @@ _INNER_BOWS = (0.045, 0.08, 0.11, 0.02, 0.15)
 _CLEAR = 14.0  # between an arrow and a state that it passes
 _LIST_GAP = 16.0
 _TYPICAL = 0.00999  # probability whose text is as long as most
+MOST_STATES = 8
+"""On an oval; there would be no telling of the arrows between more."""
+_MOST_BESIDE = 4  # states in a row, if they are only listed
 _WIDER = (1.0, 1.2, 1.5)  # ovals that are tried until the text finds room
 _PADDING = 24.0
 
@@ -39,7 +44,7 @@ class Arrow:
 
     Attributes:
         transitions: Their indices in the machine.
-        path: Points of the curve from border to border.
+        path: Points of the curve from border to border; none if it is only listed.
         label: Where the text goes, if there is any.
         lines: The text of each transition; empty if the picture has none at its arrows.
         badge: Where its number goes if the text stands in the list; else None.
@@ -138,20 +143,51 @@ BRIEF = Form(
 
 def lay_out(machine: StateMachine, form: Form = FULL) -> Layout:
     """Place states, arrows and text so that nothing covers anything else."""
+    if len(machine.states) > MOST_STATES:
+        return _lay_out_many(machine, form)
     for wider in _WIDER[:1] if form.listed else _WIDER:
         states = _place_states(machine, form, wider * form.radius)
-        arrows = _arrows(machine, form, states)
+        arrows = _arrows(machine, form, _paths(machine, states))
         labels = _labels_at_arrows(machine, form, arrows, states)
         if labels is not None:
             arrows = [replace(arrow, label=box) for arrow, box in zip(arrows, labels, strict=True)]
             return _at_origin(states, arrows)
     states = _place_states(machine, form, form.bare_radius)
-    arrows = _arrows(machine, form, states)
+    return _without_labels(machine, form, states, _paths(machine, states))
+
+
+def _without_labels(
+    machine: StateMachine, form: Form, states: Sequence[Box], paths: Mapping[tuple[int, int], Path]
+) -> Layout:
+    """The picture with its text in a list below, or, if it is brief, without text."""
+    arrows = _arrows(machine, form, paths)
     if not form.listed:
         return _at_origin(states, [replace(arrow, lines=()) for arrow in arrows])
-    badges = place_badges([arrow.path for arrow in arrows], states)
+    curves = [arrow.path for arrow in arrows]
+    many = len(states) > MOST_STATES
+    badges = badges_apart(curves) if many else place_badges(curves, states)
     arrows = [replace(arrow, badge=box) for arrow, box in zip(arrows, badges, strict=True)]
     return _with_list(machine, _at_origin(states, arrows))
+
+
+def _lay_out_many(machine: StateMachine, form: Form) -> Layout:
+    """Many states, as Graphviz places them; without it a list of states and one of arrows."""
+    sizes = [_state_box(state) for state in machine.states]
+    gaps = [_INITIAL_GAP if state.initial else _GAP for state in machine.states]
+    grown = [box.grown(gap) for box, gap in zip(sizes, gaps, strict=True)]
+    found = graphviz.place([(box.width, box.height) for box in grown], list(machine.between))
+    if found is not None:
+        centres, paths = found
+        states = [replace(box, x=x, y=y) for box, (x, y) in zip(sizes, centres, strict=True)]
+        return _without_labels(machine, form, states, paths)
+    extents = [(box.width, box.height) for box in grown]
+    width = _MOST_BESIDE * max(wide for wide, _ in extents)
+    places, _ = in_columns(extents, width, _LIST_GAP)
+    states = [replace(box, x=at.x, y=at.y) for box, at in zip(sizes, places, strict=True)]
+    first = states[0]
+    arrows = _arrows(machine, form, dict.fromkeys(machine.between, ()))
+    arrows = [replace(arrow, label=first, badge=first) for arrow in arrows]
+    return _with_list(machine, _at_origin(states, arrows)) if arrows else _at_origin(states, [])
 
 
 def _labels_at_arrows(
@@ -187,17 +223,22 @@ def _place_states(machine: StateMachine, form: Form, radius: float) -> list[Box]
     boxes = []
     for at, state in enumerate(machine.states):
         angle = 2 * math.pi * at / count + first_angle
-        first, *others = state_lines(state)
-        wide = [text_width(first, STATE_SIZE), *(text_width(row, LABEL_SIZE) for row in others)]
-        height = _STATE_HEIGHT + LINE_HEIGHT * len(others)
         x, y = form.stretch * radius * math.cos(angle), radius * math.sin(angle)
-        boxes.append(Box(x, y, max(wide) + 44, height))
+        boxes.append(_state_box(state).moved(x, y))
     return boxes
 
 
-def _arrows(machine: StateMachine, form: Form, states: Sequence[Box]) -> list[Arrow]:
+def _state_box(state: State) -> Box:
+    """A state with room for its text, at the origin."""
+    first, *others = state_lines(state)
+    wide = [text_width(first, STATE_SIZE), *(text_width(row, LABEL_SIZE) for row in others)]
+    return Box(0.0, 0.0, max(wide) + 44, _STATE_HEIGHT + LINE_HEIGHT * len(others))
+
+
+def _arrows(
+    machine: StateMachine, form: Form, paths: Mapping[tuple[int, int], Path]
+) -> list[Arrow]:
     arrows = []
-    paths = _paths(machine, states)
     for (source, target), entries in machine.between.items():
         indices = [
             at
@@ -206,7 +247,7 @@ def _arrows(machine: StateMachine, form: Form, states: Sequence[Box]) -> list[Ar
         ]
         lines = tuple(form.arrow_lines(machine, entry) for entry in entries)
         path = paths[source, target]
-        nowhere = Box(*path[0], 0.0, 0.0)
+        nowhere = Box(*(path[0] if path else (0.0, 0.0)), 0.0, 0.0)
         arrows.append(Arrow(source, target, tuple(indices), path, nowhere, lines))
     return arrows
 

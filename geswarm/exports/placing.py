@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.exports.geometry import Box, Path, Point, normal
+from geswarm.exports.geometry import SAMPLES, Box, Path, Point, normal
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
@@ -192,6 +192,21 @@ def _beside(path: Path, extent: Point) -> Iterator[_Place]:
             for further in _FURTHER_OUT:
                 away = side * (reach + further)
                 yield _Place(Box(x + away * nx, y + away * ny, width, height), False, shift)
+
+
+def badges_apart(paths: Sequence[Path]) -> list[Box]:
+    """A badge on each of many curves, away from those before it: soon found, not the best."""
+    found: list[Box] = []
+    for path in paths:
+
+        def room(point: Point) -> float:
+            apart = (math.hypot(point[0] - box.x, point[1] - box.y) for box in found)
+            return min(min(apart, default=math.inf), 2 * BADGE)
+
+        along = (path[at * (len(path) - 1) // SAMPLES] for at in _BADGE_ALONG)
+        place = max(along, key=room)
+        found.append(Box(*place, BADGE, BADGE))
+    return found
 
 
 def in_columns(extents: Sequence[Point], width: float, gap: float) -> tuple[list[Box], Point]:

@@ -7,14 +7,16 @@ from collections.abc import Iterator
 
 from geswarm.rules.english import describe
 from geswarm.rules.model import Rule, RuleSet
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>()#+!|&~$^=.-])")
 
 
-def format_english(rule_set: RuleSet) -> str:
+def format_english(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:
     """One sentence for every rule, numbered, after the name and the comment."""
     heading = [line for line in (rule_set.name, rule_set.comment) if line]
-    sentences = (f"R{at}. {text}" for at, text in enumerate(describe(rule_set), start=1))
+    described = describe(rule_set, vocabulary)
+    sentences = (f"R{at}. {text}" for at, text in enumerate(described, start=1))
     return "\n".join([*heading, *([""] if heading else []), *sentences]) + "\n"
 
 

@@ -29,6 +29,7 @@ from geswarm.exports.layout import (
 from geswarm.exports.placing import BADGE
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
+from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 BEHAVIOUR_COLOURS = ("#faa60a", "#1f63de", "#22b278", "#8c56c8", "#787878")
 """Of each behaviour code, as in the arena; codes beyond begin again."""
@@ -49,13 +50,13 @@ _LEGEND = (
 )
 
 
-def format_svg(rule_set: RuleSet) -> str:
+def format_svg(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:
     """The state machine of a rule set as a picture.
 
     Raises:
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
-    return machine_svg(StateMachine.of(rule_set))
+    return machine_svg(StateMachine.of(rule_set, vocabulary))
 
 
 def machine_svg(machine: StateMachine) -> str:
@@ -142,6 +143,8 @@ def _rectangle(name: str, box: Box, fill: str, stroke: str, width: float, radius
 def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
     """All curves first, then all text, so that no curve runs over it."""
     for arrow in layout.arrows:
+        if not arrow.path:
+            continue
         strong, _ = _colour(machine, arrow.source)
         indices = " ".join(map(str, arrow.transitions))
         likeliest = max(machine.transitions[at].probability for at in arrow.transitions)
@@ -155,7 +158,7 @@ def _arrows(machine: StateMachine, layout: Layout) -> Iterator[str]:
         )
         yield f'<path d="{_head(arrow.path)}" fill="{strong}"/></g>'
     for number, arrow in enumerate(layout.arrows, start=1):
-        if arrow.badge:
+        if arrow.badge and arrow.path:
             yield from _badge(machine, arrow, number, arrow.badge.x, arrow.badge.y)
         if arrow.lines:
             yield from _label(machine, arrow, number)

@@ -40,7 +40,7 @@ class CallOrderError(RuntimeError):
 
 
 class FitnessError(ValueError):
-    """What was told is not one finite fitness >= 0 for each asked individual."""
+    """What was told is not one finite fitness for each asked individual."""
 
 
 class CheckpointError(ValueError):
@@ -100,6 +100,7 @@ class Engine:
         self._trees = DerivationTrees(grammar)
         self._injected: list[Individual] = []
         self._bred: list[Individual] | None = None
+        self._worst = WORST_FITNESS
         self._asked: dict[Hashable, Individual] = {}
 
     @property
@@ -141,7 +142,8 @@ class Engine:
         """Give the fitness of the asked individuals, in their order; ends the generation.
 
         Args:
-            fitness: One finite number >= 0 per asked individual.
+            fitness: One finite number per asked individual, more is better. What is invalid is
+                worth 0, or as little as the worst of them and of the population if that is less.
             seconds: Wall-clock time of the generation, for the record.
 
         Raises:
@@ -154,6 +156,8 @@ class Engine:
         values = _checked_fitness(fitness, list(self._asked.values()))
         told = dict(zip(self._asked, values, strict=True))
         past = {self._same(one): one for one in self.population}
+        known = (one.value for one in self.population if one.phenotype is not None)
+        self._worst = min([WORST_FITNESS, *values, *known])
         bred = [self._evaluated(one, told, past) for one in self._bred]
         elites, noise = self._elites(), 0.0
         if self.settings.reevaluate_elites:
@@ -322,7 +326,7 @@ class Engine:
     ) -> Individual:
         """With the mean of what is known of it and of those that are the same."""
         if individual.phenotype is None:
-            return replace(individual, fitness=WORST_FITNESS, told=1)
+            return replace(individual, fitness=self._worst, told=1)
         same = self._same(individual)
         before = past.get(same)
         if before is None:
@@ -362,10 +366,9 @@ def _checked_fitness(fitness: Sequence[float], asked: list[Individual]) -> list[
             number = float(value)
         except (TypeError, ValueError):
             number = math.nan
-        if not math.isfinite(number) or number < 0:
+        if not math.isfinite(number):
             raise FitnessError(
-                f"fitness of individual {one.key}: expected a finite number >= 0 "
-                f"(roulette-wheel selection), got {value!r}"
+                f"fitness of individual {one.key}: expected a finite number, got {value!r}"
             )
         values.append(number)
     return values

@@ -14,7 +14,7 @@ from geswarm.ge.steering import Steering
 from geswarm.ge.store import RunStore
 
 Objective: TypeAlias = Callable[[int, Sequence[Individual]], Sequence[float]]
-"""(generation, individuals) -> one fitness >= 0 per individual."""
+"""(generation, individuals) -> one fitness per individual, more is better."""
 
 
 class Stopped(Exception):  # noqa: N818  (not an error: an objective raises it to stop early)

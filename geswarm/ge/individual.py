@@ -76,8 +76,8 @@ def from_json(data: Mapping[str, Any]) -> Individual:
     for name, least in (("generation", 1), ("key", 0), ("used", 0), ("told", 1)):
         if type(data[name]) is not int or not least <= data[name] < CODON_LIMIT:
             raise ValueError(f"{name} of an individual: a whole number from {least} on")
-    if not 0 <= data["fitness"] < math.inf:
-        raise ValueError(f"fitness of individual {data['key']}: a finite number >= 0")
+    if not math.isfinite(data["fitness"]):
+        raise ValueError(f"fitness of individual {data['key']}: a finite number")
     return Individual(
         generation=data["generation"],
         key=data["key"],

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from geswarm.ge.mapping import CODON_LIMIT, Genome, Mapper
 
@@ -64,20 +65,29 @@ def mutate(genome: Genome, rate: float, rng: np.random.Generator) -> Genome:
     return tuple(codons.tolist())
 
 
+def above_the_least(fitness: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Shares of a wheel: fitness, or half of what it is above the least if that is negative."""
+    values = np.asarray(fitness, dtype=np.float64)
+    least = values.min()
+    return values if least >= 0 else values / 2 - least / 2  # halves: the whole may be too large
+
+
 def roulette(fitness: Sequence[float], count: int, rng: np.random.Generator) -> list[int]:
     """Draw `count` indices with replacement, proportionally to fitness.
 
-    If every fitness is 0, all are equally likely.
+    If some are negative, to what they are above the least. If all come to 0 then, all are equally
+    likely.
 
     Raises:
-        ValueError: A fitness is negative or not finite, or there is none.
+        ValueError: A fitness is not finite, or there is none.
     """
     shares = np.asarray(fitness, dtype=np.float64)
     if shares.ndim != 1 or not shares.size:
         raise ValueError(f"fitness: expected at least one value, got shape {shares.shape}")
-    if not (np.isfinite(shares) & (shares >= 0)).all():
-        at = int(np.flatnonzero(~(np.isfinite(shares) & (shares >= 0)))[0])
-        raise ValueError(f"fitness[{at}]: expected a finite number >= 0, got {shares[at]}")
+    if not np.isfinite(shares).all():
+        at = int(np.flatnonzero(~np.isfinite(shares))[0])
+        raise ValueError(f"fitness[{at}]: expected a finite number, got {shares[at]}")
+    shares = above_the_least(shares)
     if not shares.any():
         return [int(index) for index in rng.integers(shares.size, size=count)]
     wheel = np.cumsum(shares / shares.max())

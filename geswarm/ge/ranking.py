@@ -47,6 +47,8 @@ def ranked(individuals: Sequence[Individual], noise: float, parsimony: bool) -> 
 
     def key(one: Individual) -> tuple[float, int]:
         size = one.used if parsimony else 0
-        return noise / math.sqrt(one.told) - one.value / (1 + CODON_COST * size), size
+        cost = 1 + CODON_COST * size
+        worth = one.value / cost if one.value > 0 else one.value * cost
+        return noise / math.sqrt(one.told) - worth, size
 
     return sorted(individuals, key=key)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, fields
 
 
@@ -16,7 +16,7 @@ class GenerationRecord:
             time, it is the highest since the beginning; if they are evaluated again, it is the mean
             of all evaluations of the best, which can also fall.
         best: Highest fitness among the individuals bred for this generation, elites not included.
-        mean: Mean fitness of the same individuals; invalid ones count as 0.
+        mean: Mean fitness of the same individuals; invalid ones count, see `Engine.tell`.
         invalid: How many of them are invalid: their mapping did not finish.
         distinct: Different phenotypes among them.
         seconds: Wall-clock time; the only field in which two equal runs differ.
@@ -41,14 +41,17 @@ class GenerationRecord:
         return ",".join([*(format(number, ".10g") for number in numbers), f"{seconds:.3f}"])
 
 
-def fall_in_words(best_so_far: Sequence[float]) -> str:
+def fall_in_words(
+    best_so_far: Sequence[float], shown: Callable[[float], str] = "{:.1f}".format
+) -> str:
     """A word wherever the best so far is less than it was: the best was evaluated again.
 
     Args:
         best_so_far: Of every generation so far, one at least.
+        shown: How a fitness is written.
 
     Returns:
         For example `re-evaluated: 131.2 → 129.8`; empty if it has never been more than it is.
     """
-    highest, last = (f"{value:.1f}" for value in (max(best_so_far), best_so_far[-1]))
+    highest, last = map(shown, (max(best_so_far), best_so_far[-1]))
     return "" if highest == last else f"re-evaluated: {highest} → {last}"

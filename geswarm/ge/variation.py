@@ -15,6 +15,7 @@ from geswarm.ge.derivation import DerivationTrees, exact
 from geswarm.ge.individual import Individual
 from geswarm.ge.mapping import Genome, Mapper
 from geswarm.ge.operators import (
+    above_the_least,
     mutate,
     random_genome,
     roulette,
@@ -90,8 +91,8 @@ def _select(
 ) -> list[int]:
     """Indices of parents; a population is in the order of its ranking."""
     if settings.selection == "roulette":
-        best = max(one.value for one in population) or 1.0
-        shares = [one.value for one in population]
+        shares = above_the_least([one.value for one in population]).tolist()
+        best = max(shares) or 1.0
         if settings.scaling != 1.0:
             shares = [(share / best) ** settings.scaling for share in shares]
         return roulette(shares, count, rng)

@@ -31,6 +31,10 @@ class Argument(ABC):
     def admits(self, value: object) -> bool:
         """Whether a value may be used."""
 
+    def number(self, value: Value) -> float:
+        """A value as components get it."""
+        return float(value)
+
     def problem(self, value: object) -> str | None:
         """What is wrong with a value, or None."""
         if self.admits(value):
@@ -47,6 +51,9 @@ class Whole(Argument):
     low: int
     high: int
     unit: str = ""
+
+    def __post_init__(self) -> None:
+        _require_range(self.name, self.low, self.high)
 
     @property
     def offered(self) -> tuple[Value, ...]:
@@ -83,6 +90,11 @@ class Number(Argument):
     step: float
     logarithmic: bool = False
     unit: str = ""
+
+    def __post_init__(self) -> None:
+        _require_range(self.name, self.low, self.high)
+        if self.step <= (1.0 if self.logarithmic else 0.0) or (self.logarithmic and self.low <= 0):
+            raise ValueError(f"{self.name}: expected steps upwards, got {self.step}")
 
     @property
     def offered(self) -> tuple[Value, ...]:
@@ -123,9 +135,19 @@ class Choice(Argument):
         """The names."""
         return " or ".join(self.options)
 
+    def number(self, value: Value) -> float:
+        """Its position among the names."""
+        return self.options.index(str(value))
+
     def admits(self, value: object) -> bool:
         """Whether it is one of the names."""
         return value in self.options
+
+
+def _require_range(name: str, low: float, high: float) -> None:
+    """Raise ValueError unless there is something between two numbers."""
+    if not low < high:
+        raise ValueError(f"{name}: expected the least before the greatest, got {low} and {high}")
 
 
 def _short(number: float) -> float:

@@ -1,6 +1,6 @@
 """Rule sets as plain JSON values, for the rule table page and for other programs.
 
-{"name", "comment", "origin": {"preset", "run", "generation", "fitness"},
+{"name", "scenario", "comment", "origin": {"preset", "run", "generation", "fitness"},
  "rules": [{"comment", "enabled", "preconditions": [{"percept": TERM, "comparison", "value"}],
             "behaviours": [TERM],
             "actions": [{"p", "behaviour": TERM} or {"p", "state", "operation", "value"}]}]}
@@ -38,7 +38,7 @@ from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA = 2
 
-_TOP_KEYS = ("schema", "name", "comment", "origin", "rules", "state_machine")
+_TOP_KEYS = ("schema", "name", "scenario", "comment", "origin", "rules", "state_machine")
 _RULE_KEYS = ("comment", "enabled", "preconditions", "behaviours", "actions")
 _ORIGIN_KEYS: dict[str, type | tuple[type, ...]] = {
     "preset": str,
@@ -102,7 +102,7 @@ def parse_json(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -
         for finding in name_errors(rule_set, vocabulary)
     ]
     if findings:
-        raise RuleSetError(findings)
+        raise RuleSetError(findings, rule_set.scenario)
     return rule_set
 
 
@@ -129,6 +129,7 @@ class _Reader:
             name=self.part("", lambda: _field(document, "name", str, "")),
             comment=self.part("", lambda: _field(document, "comment", str, "")),
             origin=self.part(Origin(), lambda: _origin(document.get("origin", {}))),
+            scenario=self.part("", lambda: _field(document, "scenario", str, "")),
         )
 
     def rule(self, number: int, value: Json) -> Rule:

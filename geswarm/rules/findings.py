@@ -30,7 +30,10 @@ def unknown_name(kind: str, given: str, known: Iterable[str]) -> str:
     upper = given.upper().replace("-", "_")
     by_folded = {name.upper().replace("-", "_"): name for name in known}
     near = difflib.get_close_matches(upper, by_folded, n=1, cutoff=0.5)
-    hint = f"did you mean {by_folded[near[0]]}?" if near else f"expected {' or '.join(known)}"
+    if near:
+        hint = f"did you mean {by_folded[near[0]]}?"
+    else:
+        hint = f"expected {' or '.join(known)}" if known else "there is none on offer"
     return f"unknown {kind} {shown(given)}; {hint}"
 
 
@@ -72,8 +75,14 @@ class Finding:
 
 
 class RuleSetError(ValueError):
-    """A rule set cannot be used; `findings` lists every reason."""
+    """A rule set cannot be used.
 
-    def __init__(self, findings: Iterable[Finding]) -> None:
+    Attributes:
+        findings: Every reason.
+        scenario: The scenario for which it says that it was written; empty if it does not.
+    """
+
+    def __init__(self, findings: Iterable[Finding], scenario: str = "") -> None:
         self.findings = tuple(findings)
+        self.scenario = scenario
         super().__init__("\n".join(str(finding) for finding in self.findings))

@@ -296,16 +296,26 @@ class Origin:
 
 @dataclass(frozen=True)
 class RuleSet:
-    """The controller that every robot of the swarm runs: rules in order, R1 first."""
+    """The controller that every robot of the swarm runs.
+
+    Attributes:
+        rules: In order, R1 first.
+        name: What it is called.
+        comment: What it is for, in the author's words.
+        origin: Where it came from.
+        scenario: Name of the scenario in whose words it was written; empty for foraging's.
+    """
 
     rules: tuple[Rule, ...] = ()
     name: str = ""
     comment: str = ""
     origin: Origin = field(default_factory=Origin)
+    scenario: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", clean_line(self.name))
         object.__setattr__(self, "comment", clean_text(self.comment))
+        object.__setattr__(self, "scenario", clean_line(self.scenario))
 
     @property
     def active_rules(self) -> tuple[Rule, ...]:

@@ -33,6 +33,26 @@ def name_errors(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> list[Fi
     ]
 
 
+def unknown_terms(rule_set: RuleSet, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """The names in a rule set that a vocabulary does not have, in alphabetical order."""
+    known = (
+        vocabulary.percepts.keys()
+        | vocabulary.behaviour_names.keys()
+        | vocabulary.state_names.keys()
+    )
+    return tuple(sorted(set(_names(rule_set)) - known))
+
+
+def _names(rule_set: RuleSet) -> Iterator[str]:
+    """Every name of a term in a rule set."""
+    for rule in rule_set.rules:
+        yield from (each.percept.name for each in rule.preconditions)
+        yield from (each.name for each in rule.behaviours)
+        for action in rule.actions:
+            yield from (each.name for each in action.behaviours)
+            yield from [action.target] if action.target else []
+
+
 def _in_rule(rule: Rule, vocabulary: Vocabulary) -> Iterator[tuple[str, str | None]]:
     for at, precondition in enumerate(rule.preconditions, start=1):
         yield f"precondition {at}", vocabulary.precondition_error(precondition)

@@ -181,19 +181,18 @@ class StateMachine:
             groups[transition.source, transition.target].append(transition)
         return {pair: tuple(group) for pair, group in groups.items()}
 
-    def robots_in_states(
-        self, behaviour: npt.NDArray[np.uint8], internal_states: npt.NDArray[np.uint8]
-    ) -> IntArray:
+    def robots_in_states(self, behaviour: IntArray, internal_states: IntArray) -> IntArray:
         """How many robots are in each state, shape (states,).
 
         After a change of the rules, robots can still be where the new rules never lead: they are in
         none of the states.
 
         Args:
-            behaviour: Numbers of the behaviours in `space`, shape (robots,).
+            behaviour: Numbers of the behaviours in `space`, shape (robots,); -1 for others.
             internal_states: Numbers of the internal states, shape (robots,).
         """
-        columns = behaviour.astype(np.int64) * self.space.states + internal_states
+        known = behaviour >= 0
+        columns = behaviour[known] * self.space.states + internal_states[known]
         robots = np.bincount(columns, minlength=self.space.starts)
         return robots[[state.column for state in self.states]]
 

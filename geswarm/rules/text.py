@@ -8,8 +8,9 @@
       do p = 0.001, ANTI-PHOTOTAXIS
 
 Line breaks and indentation are free. `rule off` is a rule that is switched off. Before the first
-rule, `name "..."` and `origin ...` may stand, and comments before them belong to the rule set. The
-phenotypes that the grammar derives are sentences of this language.
+rule, `name "..."`, `scenario "..."` (in whose words it is written) and `origin ...` may stand;
+comments before them belong to the rule set. The phenotypes that the grammar derives are sentences
+of this language.
 """
 
 from __future__ import annotations
@@ -30,13 +31,13 @@ from geswarm.rules.elements import (
 )
 from geswarm.rules.findings import Finding, Place, RuleSetError, shown
 from geswarm.rules.limits import is_finite
-from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet, Term
+from geswarm.rules.model import Action, Origin, Precondition, Rule, RuleSet, Term, clean_line
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 _TOKEN = re.compile(
     r'(?P<comment>\#.*)|(?P<string>"(?:[^"\\]|\\.)*"?)|(?P<word>[\w.+-]+)|(?P<space>\s+)|(?P<other>.)'
 )
-_KEYWORDS = frozenset({"name", "origin", "rule", "if", "and", "while", "or", "do"})
+_KEYWORDS = frozenset({"name", "scenario", "origin", "rule", "if", "and", "while", "or", "do"})
 _STAGE = {"rule": 0, "if": 1, "and": 1, "while": 2, "or": 2, "do": 3}
 _ORIGIN_PART = re.compile(r'\s*(\w+)\s+("(?:[^"\\]|\\.)*"|[^\s,"]+)\s*(?:,|$)')
 _ORIGIN_TYPES: dict[str, type] = {"preset": str, "run": str, "generation": int, "fitness": float}
@@ -46,6 +47,8 @@ def format_text(rule_set: RuleSet) -> str:
     """Write a rule set in the rule language; `parse_text` reads back exactly the same value."""
     lines = _comment_lines(rule_set.comment)
     lines.append(f"name {json.dumps(rule_set.name, ensure_ascii=False)}")
+    if rule_set.scenario:
+        lines.append(f"scenario {json.dumps(rule_set.scenario, ensure_ascii=False)}")
     origin = ", ".join(
         f"{key} {json.dumps(value, ensure_ascii=False)}"
         for key, value in vars(rule_set.origin).items()
@@ -163,6 +166,7 @@ class _Parser:
         self.findings: list[Finding] = []
         self.drafts: list[_Draft] = []
         self.name = ""
+        self.scenario = ""
         self.comment: list[str] = []
         self.origin = Origin()
         self.headers: set[str] = set()
@@ -172,10 +176,10 @@ class _Parser:
         if not self.drafts and not self.headers and not self.findings:
             self.report(1, "expected at least one rule, for example: rule do p = 1, PHOTOTAXIS")
         if self.findings:
-            raise RuleSetError(self.findings)
+            raise RuleSetError(self.findings, self.scenario)
         (self.drafts[-1] if self.drafts else self).comment += self.pending
         rules = tuple(draft.rule() for draft in self.drafts)
-        return RuleSet(rules, self.name, "\n".join(self.comment), self.origin)
+        return RuleSet(rules, self.name, "\n".join(self.comment), self.origin, self.scenario)
 
     def report(self, line: int, message: str, element: str = "") -> None:
         rule = len(self.drafts) or None
@@ -185,9 +189,9 @@ class _Parser:
         if phrase.keyword == "#":
             self.pending.append(phrase.body)
         elif phrase.keyword == "":
-            expected = "if, while, do or rule" if self.drafts else "name, origin or rule"
+            expected = "if, while, do or rule" if self.drafts else "name, scenario, origin or rule"
             self.report(phrase.line, f"expected {expected}, got {shown(phrase.body.strip())}")
-        elif phrase.keyword in ("name", "origin"):
+        elif phrase.keyword in ("name", "scenario", "origin"):
             self.take_header(phrase)
         elif phrase.keyword == "rule":
             self.take_rule(phrase)
@@ -208,6 +212,8 @@ class _Parser:
         try:
             if phrase.keyword == "name":
                 self.name = _string(phrase.body.strip())
+            elif phrase.keyword == "scenario":
+                self.scenario = clean_line(_string(phrase.body.strip()))
             else:
                 self.origin = _origin(phrase.body)
         except ElementError as error:

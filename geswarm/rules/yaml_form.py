@@ -31,7 +31,7 @@ from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 SCHEMA = 1
 
-_TOP_KEYS = ("schema", "name", "comment", "origin", "rules")
+_TOP_KEYS = ("schema", "name", "scenario", "comment", "origin", "rules")
 _RULE_KEYS = ("comment", "enabled", "if", "while", "do")
 _ORIGIN_KEYS: dict[str, type | tuple[type, ...]] = {
     "preset": str,
@@ -45,6 +45,8 @@ T = TypeVar("T")
 def format_yaml(rule_set: RuleSet) -> str:
     """Write a rule set as YAML; `parse_yaml` reads back exactly the same value."""
     document: dict[str, Any] = {"schema": SCHEMA, "name": rule_set.name}
+    if rule_set.scenario:
+        document["scenario"] = rule_set.scenario
     if rule_set.comment:
         document["comment"] = _Prose(rule_set.comment)
     origin = {key: value for key, value in vars(rule_set.origin).items() if value is not None}
@@ -112,7 +114,7 @@ def parse_yaml(text: str, source: str = "", vocabulary: Vocabulary = FORAGING) -
     reader = _Reader(source, vocabulary)
     rule_set = reader.read(text)
     if reader.findings or rule_set is None:
-        raise RuleSetError(reader.findings)
+        raise RuleSetError(reader.findings, rule_set.scenario if rule_set else "")
     return rule_set
 
 
@@ -153,6 +155,7 @@ class _Reader:
             name=self.scalar(parts.get("name"), str, "name") or "",
             comment=self.scalar(parts.get("comment"), str, "comment") or "",
             origin=self.read_origin(parts.get("origin")),
+            scenario=self.scalar(parts.get("scenario"), str, "scenario") or "",
         )
 
     def read_origin(self, node: yaml.Node | None) -> Origin:

@@ -8,7 +8,7 @@ Many runs to their end, each with random numbers of its own:
 >>> short = load_scenario("paper").with_changes(duration=1000.0)
 >>> runs = [Simulation(table, seed=1, replicate=n) for table in (0, 1) for n in range(20)]
 >>> result = evaluate([ControlTable.compile(rules) for rules in (evo8, hand_coded)], short, runs)
->>> first, second = result.collected.reshape(2, 20)
+>>> first, second = result.fitness.reshape(2, 20)
 >>> bool(first.mean() > second.mean())
 True
 
@@ -31,11 +31,14 @@ PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, evaluate
 from geswarm.sim.cores import available_cores
+from geswarm.sim.library import TermError, parts_of, vocabulary_of
+from geswarm.sim.objective import Objective, ObjectiveError
 from geswarm.sim.scenario import (
     Scenario,
     ScenarioError,
     load_scenario,
     parse_scenario,
+    scenario_about,
     scenario_names,
 )
 from geswarm.sim.startup import is_compiled, warm_up
@@ -46,10 +49,13 @@ __all__ = [
     "NEEDS_RESET",
     "BatchResult",
     "EvaluationStopped",
+    "Objective",
+    "ObjectiveError",
     "Scenario",
     "ScenarioError",
     "Simulation",
     "Stop",
+    "TermError",
     "World",
     "WorldState",
     "available_cores",
@@ -58,6 +64,9 @@ __all__ = [
     "is_compiled",
     "load_scenario",
     "parse_scenario",
+    "parts_of",
+    "scenario_about",
     "scenario_names",
+    "vocabulary_of",
     "warm_up",
 ]

@@ -7,7 +7,7 @@ with a search for neighbours that suits them. Which way is a matter of the scena
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
@@ -16,16 +16,16 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.sim.assembly.kernel import assemble
-from geswarm.sim.assembly.records import GROUP, OBJECT, Records, robot_type, work_type
+from geswarm.sim.assembly.records import OBJECT, Records, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.cores import available_cores
 from geswarm.sim.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.kernels.table import Tables
-from geswarm.sim.program import Controller, compile_controllers
+from geswarm.sim.library import parts_of
+from geswarm.sim.objective import OF_THE_RUN
 from geswarm.sim.scenario import Scenario
 from geswarm.sim.swarm import Swarm
-from geswarm.sim.terms.foraging import FORAGING as PARTS
+from geswarm.sim.tables import Controller, Controllers, compile_controllers
 
 _ROBOT_STEPS_PER_CALL = 2_000_000
 """Work between two looks at `stop`: up to about a tenth of a second."""
@@ -34,9 +34,9 @@ _ROBOTS_SIDE_BY_SIDE, _OBJECTS_SIDE_BY_SIDE = 64, 128
 """Beyond these, comparing each robot with each robot and object takes longer than a grid."""
 
 Stop: TypeAlias = Callable[[], bool]
-Counts: TypeAlias = npt.NDArray[np.int64]
-"""Shape (simulations, 3), in the order of `_MEASURES`."""
-_MEASURES = ("picked", "collected", "lost")
+Simulations: TypeAlias = npt.NDArray[np.int64]
+"""Table, seed, individual, replicate; shape (simulations, 4)."""
+Values: TypeAlias = npt.NDArray[np.float64]
 
 
 class Simulation(NamedTuple):
@@ -54,17 +54,15 @@ class EvaluationStopped(Exception):  # noqa: N818, it is not an error
 
 @dataclass(frozen=True)
 class BatchResult:
-    """Counts of objects per simulation, int64, shape (simulations,), in the order given.
+    """What came of simulations, in the order given.
 
     Attributes:
-        collected: Dropped inside the nest: the fitness (paper, section 3.1.2).
-        lost: Dropped elsewhere.
-        picked: Picked up; also counts those still carried at the end.
+        fitness: Value of the scenario's objective, float64, shape (simulations,).
+        measures: Each measure by name, float64, shape (simulations,).
     """
 
-    collected: npt.NDArray[np.int64]
-    lost: npt.NDArray[np.int64]
-    picked: npt.NDArray[np.int64]
+    fitness: Values
+    measures: Mapping[str, Values]
 
 
 def evaluate(
@@ -93,19 +91,29 @@ def evaluate(
     if workers < 1:
         raise ValueError(f"workers: expected at least 1, got {workers}")
     todo = _checked(simulations, len(tables))
-    tallies = np.zeros((len(todo), 3), dtype=np.int64)
+    parts = parts_of(scenario)
+    values = np.zeros((len(todo), len(parts.measures)))
     if len(todo):
-        compiled = compile_controllers(tables, fails(scenario))
+        controllers = compile_controllers(tables, fails(scenario, parts), parts)
         together = runs_side_by_side(scenario)
         run_share = _run_side_by_side if together else _run_one_by_one
 
         def run(share: slice) -> None:
-            run_share(compiled, scenario, todo[share], tallies[share], stop)
+            run_share(controllers, scenario, todo[share], values[share], stop)
 
         _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
-    return BatchResult(
-        **{name: tallies[:, at].copy() for at, name in enumerate(_MEASURES)},
-    )
+    measures = {each.name: values[:, at].copy() for at, each in enumerate(parts.measures)}
+    return BatchResult(fitness_of(scenario, measures), measures)
+
+
+def fitness_of(scenario: Scenario, measures: Mapping[str, Values | float]) -> Values:
+    """The scenario's objective, of measures by name.
+
+    Raises:
+        ObjectiveError: It names something else.
+    """
+    known = {name: getattr(scenario, name) for name in OF_THE_RUN}
+    return scenario.objective.of({**known, **measures})
 
 
 def _checked(
@@ -145,14 +153,6 @@ def _shares(simulations: int, workers: int) -> list[slice]:
     return [slice(*pair) for pair in itertools.pairwise(ends)]
 
 
-def lanes_of(tables: Tables, numbers: npt.NDArray[np.int64]) -> Records:
-    """Where the control table of each lane begins; of GROUP."""
-    group = np.zeros(1, dtype=GROUP)
-    group["codes"][0, : len(numbers)] = tables.begins[numbers, 0]
-    group["rows"][0, : len(numbers)] = tables.begins[numbers, 1]
-    return group
-
-
 class Group:
     """Up to LANES simulations side by side; the last vector is filled with copies of the last one.
 
@@ -161,18 +161,20 @@ class Group:
         objects: Of OBJECT, shape (objects,).
     """
 
-    def __init__(self, tables: Tables, scenario: Scenario, simulations: Counts) -> None:
+    def __init__(
+        self, controllers: Controllers, scenario: Scenario, simulations: Simulations
+    ) -> None:
         """Start simulations (table, seed, individual, replicate)."""
-        layout = Layout()
-        self._kernel = assemble(PARTS, layout)
-        self._numbers = numbers_by_name(scenario, self._kernel.numbers)
+        layout, parts = Layout(), controllers.parts
+        self._kernel = assemble(parts, layout)
+        self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
         self.width = _LANES_OF_A_VECTOR * -(-len(simulations) // _LANES_OF_A_VECTOR)
         filled = np.pad(simulations, ((0, self.width - len(simulations)), (0, 0)), mode="edge")
-        self.robots = np.zeros(scenario.robots, dtype=robot_type(PARTS, layout))
+        self.robots = np.zeros(scenario.robots, dtype=robot_type(parts, layout))
         self.objects = np.zeros(scenario.objects, dtype=OBJECT)
-        self._work = np.zeros(1, dtype=work_type(PARTS, layout))[0]
-        self._tables = (lanes_of(tables, filled[:, 0])[0], *tables[:4])
-        began = start_of(scenario, filled)
+        self._work = np.zeros(1, dtype=work_type(parts, layout))[0]
+        self._controller = controllers.for_lanes(filled[:, 0])
+        began = start_of(scenario, filled, parts)
         for name in ("x", "y"):
             self.objects[name][:, : self.width] = began.objects[:, :, "xy".index(name)].T
         self._fill(began.robots)
@@ -185,36 +187,44 @@ class Group:
     def run(self, first: int, steps: int) -> None:
         """Run control steps first..first+steps-1."""
         records = (self._numbers, self.robots, self.objects, self._work)
-        self._kernel.run(*records, *self._tables, self.width, first, steps)
+        self._kernel.run(*records, *self._controller, self.width, first, steps)
 
-    def measured(self, name: str) -> npt.NDArray[np.int64]:
+    def measured(self, name: str) -> Values:
         """A measure of each simulation, shape (LANES,)."""
-        total: npt.NDArray[np.int64] = self.robots[name].sum(axis=0, dtype=np.int64)
+        total: Values = self.robots[name].sum(axis=0, dtype=np.float64)
         return total
 
 
 def _run_side_by_side(
-    tables: Tables, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+    controllers: Controllers,
+    scenario: Scenario,
+    simulations: Simulations,
+    values: Values,
+    stop: Stop | None,
 ) -> None:
     """Run at most LANES simulations."""
-    group = Group(tables, scenario, simulations)
+    group = Group(controllers, scenario, simulations)
     for first, steps in _segments(scenario, group.width, stop):
         group.run(first, steps)
-    for at, name in enumerate(_MEASURES):
-        tallies[:, at] = group.measured(name)[: len(tallies)]
+    for at, measure in enumerate(controllers.parts.measures):
+        values[:, at] = group.measured(measure.name)[: len(values)]
 
 
 def _run_one_by_one(
-    tables: Tables, scenario: Scenario, simulations: Counts, tallies: Counts, stop: Stop | None
+    controllers: Controllers,
+    scenario: Scenario,
+    simulations: Simulations,
+    values: Values,
+    stop: Stop | None,
 ) -> None:
     """Run simulations one after the other."""
     swarm = Swarm(scenario, rules=False)
-    for (table, *key), tally in zip(simulations, tallies, strict=True):
+    for (table, *key), row in zip(simulations, values, strict=True):
         swarm.start(*key)
-        controller = (lanes_of(tables, np.full(LANES, table))[0], *tables[:4])
+        controller = controllers.for_lanes(np.full(LANES, table))
         for _, steps in _segments(scenario, 1, stop):
             swarm.run(controller, steps)
-        tally[:] = [swarm.measured(name) for name in _MEASURES]
+        row[:] = [swarm.measured(each.name) for each in swarm.parts.measures]
 
 
 def _segments(scenario: Scenario, lanes: int, stop: Stop | None) -> Iterator[tuple[int, int]]:

@@ -27,4 +27,5 @@ VERSION = _fingerprint(_FOLDER, _FOLDER.parent / "terms", _FOLDER.parent / "asse
 """Checksum of the sources from which kernels are assembled and compiled."""
 
 start_all = start.build_start_all(VERSION)
+look_around = start.build_look_around(VERSION)
 compile_tables = tabulate.build_compile_tables(VERSION)

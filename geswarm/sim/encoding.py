@@ -11,14 +11,15 @@ import numpy.typing as npt
 
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
+from geswarm.sim.arena_numbers import ground_numbers, object_numbers
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.compiled import start_all
 from geswarm.sim.kernels.pairs import Grid
-from geswarm.sim.kernels.state import ROBOT, SLOT, Physics
+from geswarm.sim.kernels.state import ROBOT, SLOT, Beginning
 from geswarm.sim.scenario import Scenario
 from geswarm.sim.scenario_checks import objects_from_walls
+from geswarm.sim.start_places import places_of, require_room
 from geswarm.sim.terms.component import Component
-from geswarm.sim.terms.foraging import FORAGING as PARTS
 from geswarm.sim.terms.parts import Parts, PartsError
 
 _ALL_PAIRS_UP_TO = 12
@@ -28,48 +29,42 @@ _STEPS_OF_A_LIST = 20
 """Margin of the lists of pairs, in steps of a robot at full speed."""
 
 
-def encode_scenario(scenario: Scenario) -> Physics:
-    """The scenario in numbers; origin at the centre of the arena."""
-    half_length = scenario.length / 2.0
-    return Physics(
-        half_width=scenario.width / 2.0,
-        half_length=half_length,
-        nest_edge=scenario.nest - half_length,
-        source_edge=half_length - scenario.source,
-        light_y=half_length + scenario.light,
-        zone_miss=scenario.zone_miss,
-        grip_reach=scenario.grip_reach,
-        object_margin=objects_from_walls(scenario.object_margin, scenario.grip_reach),
-        walk_min=scenario.random_walk[0],
-        walk_max=scenario.random_walk[1],
-        max_speed=scenario.max_speed,
-        turn_gain=scenario.turn_gain,
-        proximity_range=scenario.proximity_range,
-        rab_range=scenario.rab_range,
-        avoidance_gain=scenario.avoidance_gain,
-        radius=footbot.RADIUS,
-        wheel_base=footbot.WHEEL_BASE,
-        control_step=CONTROL_STEP,
-    )
-
-
 def scenario_numbers(scenario: Scenario) -> dict[str, float]:
     """Everything that components may name; lengths in metres, times in seconds."""
-    physics = encode_scenario(scenario)
     sight, skin = _sight(scenario)
+    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
+    own = {name: float(getattr(scenario, name)) for name in _OWN}
     return {
-        **physics._asdict(),
+        **dict(scenario.numbers),
+        **own,
+        "walk_min": scenario.random_walk[0],
+        "walk_max": scenario.random_walk[1],
+        "avoidance_range": _avoidance_range(scenario),
+        "half_width": scenario.arena.half_width,
+        "half_length": scenario.arena.half_length,
+        "radius": footbot.RADIUS,
+        "wheel_base": footbot.WHEEL_BASE,
+        "control_step": CONTROL_STEP,
+        **ground_numbers(scenario.arena, footbot.RADIUS),
+        **object_numbers(scenario.arena, margin),
         "sight": sight,
         "skin": skin,
-        "objects_west": physics.object_margin - physics.half_width,
-        "objects_east": physics.half_width - physics.object_margin,
-        "objects_south": physics.source_edge,
-        "objects_north": physics.half_length - physics.object_margin,
     }
 
 
+_OWN = (
+    *("robots", "duration", "zone_miss", "grip_reach", "object_range", "max_speed", "turn_gain"),
+    *("proximity_range", "rab_range", "avoidance_gain"),
+)
+
+
+def _avoidance_range(scenario: Scenario) -> float:
+    given = scenario.avoidance_range
+    return scenario.rab_range if given is None else given
+
+
 def numbers_by_name(
-    scenario: Scenario, names: Iterable[str], parts: Parts = PARTS
+    scenario: Scenario, names: Iterable[str], parts: Parts
 ) -> npt.NDArray[np.float32]:
     """The numbers of these names, in single precision.
 
@@ -80,9 +75,8 @@ def numbers_by_name(
     names = list(names)
     for name in names:
         if name not in known:
-            who: Component = next(
-                each for each in (*parts.components, *parts.needed_sums) if name in each.needs
-            )
+            everyone = (*parts.components, *parts.needed_sums)
+            who: Component = next(each for each in everyone if name in each.needs)
             raise PartsError(
                 f"{who.place}: {who.name} names {name}, which is neither a field of a robot, nor a "
                 "register, nor a sum over the other robots, nor a number of the scenario"
@@ -90,7 +84,7 @@ def numbers_by_name(
     return np.array([known[name] for name in names], dtype=np.float32)
 
 
-def fails(scenario: Scenario, parts: Parts = PARTS) -> list[float]:
+def fails(scenario: Scenario, parts: Parts) -> list[float]:
     """With which probability each sensor reads 0 instead of what it should."""
     known = scenario_numbers(scenario)
     return [known[sensor.fails] if sensor.fails else 0.0 for sensor in parts.sensors]
@@ -111,7 +105,8 @@ def _sight(scenario: Scenario) -> tuple[float, float]:
     """How far robots must know of each other, and the margin of the lists of pairs (m)."""
     step = scenario.max_speed * CONTROL_STEP
     touch = 2.0 * (footbot.RADIUS + step)
-    sight = max(scenario.rab_range, 2.0 * touch)
+    body = 2.0 * footbot.RADIUS + scenario.proximity_range
+    sight = max(scenario.rab_range, _avoidance_range(scenario), body, 2.0 * touch)
     if scenario.robots <= _ALL_PAIRS_UP_TO:
         return sight, _ALL_PAIRS_MARGIN
     return sight, min(max(_STEPS_OF_A_LIST * step, 0.1 * sight), sight)
@@ -122,7 +117,14 @@ def grid_for(scenario: Scenario) -> Grid:
     robots = scenario.robots
     sight, skin = _sight(scenario)
     columns, rows = _cells(scenario.width, scenario.length, 1.01 * (sight + skin), 4 * robots)
-    source = _cells(scenario.width, scenario.source, scenario.grip_reach, scenario.objects)
+    source = (1, 1)
+    if scenario.objects:
+        lie = object_numbers(scenario.arena, 0.0)
+        width, depth = (
+            lie[f"objects_{high}"] - lie[f"objects_{low}"]
+            for high, low in (("east", "west"), ("north", "south"))
+        )
+        source = _cells(width, depth, scenario.grip_reach, scenario.objects)
     pairs, listed = np.empty((4 * robots, 2), dtype=np.int32), -1
     if robots <= _ALL_PAIRS_UP_TO:
         pairs = np.stack(np.triu_indices(robots, 1), axis=1).astype(np.int32)
@@ -157,23 +159,45 @@ class Start(NamedTuple):
     objects: npt.NDArray[np.float64]
 
 
-def start_of(scenario: Scenario, simulations: npt.NDArray[np.int64]) -> Start:
-    """Simulations (table, seed, individual, replicate) at their start."""
+def start_of(scenario: Scenario, simulations: npt.NDArray[np.int64], parts: Parts) -> Start:
+    """Simulations at their start.
+
+    Args:
+        scenario: Of all of them.
+        simulations: (table, seed, individual, replicate) each.
+        parts: What the scenario is composed of.
+
+    Raises:
+        GroundError: The robots do not fit where they start.
+    """
     robots = scenario.robots
     large = robots > _ALL_PAIRS_UP_TO
     columns, rows = _cells(scenario.width, scenario.length, 2.0 * footbot.RADIUS, 4 * robots)
+    arena, (walk_min, walk_max) = scenario.arena, scenario.random_walk
     began = Start(
         robots=np.zeros((len(simulations), robots), dtype=ROBOT),
         objects=np.zeros((len(simulations), scenario.objects, 2)),
     )
-    start_all(
-        encode_scenario(scenario),
-        began.robots,
-        np.zeros(robots if large else 0, dtype=SLOT),
-        np.zeros((columns, rows + 1) if large else (0, 1), dtype=np.int32),
-        began.objects,
-        np.ascontiguousarray(simulations, dtype=np.int64),
-    )
+    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
+    places = places_of(arena, footbot.RADIUS, margin if scenario.objects else None)
+    beginning = Beginning(parts.first_instance, parts.first_state, walk_min, walk_max, CONTROL_STEP)
+    placed = np.zeros(len(simulations), dtype=np.bool_)
+    for again in (False, True):
+        if again:
+            places = places._replace(spots=require_room(arena, footbot.RADIUS, robots))
+        start_all(
+            places,
+            beginning,
+            began.robots,
+            np.zeros(robots if large else 0, dtype=SLOT),
+            np.zeros((columns, rows + 1) if large else (0, 1), dtype=np.int32),
+            np.zeros(len(places.spots), dtype=np.int64),
+            began.objects,
+            np.ascontiguousarray(simulations, dtype=np.int64),
+            placed,
+        )
+        if placed.all():
+            break
     return began
 
 
@@ -181,7 +205,10 @@ def fill_robots(block: Records, began: Records) -> None:
     """Give fields of robots, shape (robots, lanes) or (lanes,), the values of the start."""
     block["key_low"] = began["key"] & np.uint64(0xFFFFFFFF)
     block["key_high"] = began["key"] >> np.uint64(32)
+    fields = block.dtype.names or ()
     for name in ("x", "y", "cos", "sin", "walk_x", "walk_y", "behaviour", "carried"):
-        block[name] = began[name]
-    block["walk_until"] = np.ceil(began["walk_until"])
+        if name in fields:
+            block[name] = began[name]
+    if "walk_until" in fields:
+        block["walk_until"] = np.ceil(began["walk_until"])
     block["state"] = began["states"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -51,6 +51,22 @@ class Objective:
     def __post_init__(self) -> None:
         _check(self._tree, self.expression)
 
+    @property
+    def label(self) -> str:
+        """What it is called on axes and in tables: `collected (objects)`."""
+        return f"{self.expression} ({self.unit})" if self.unit else self.expression
+
+    @property
+    def gain_label(self) -> str:
+        """The same for what more of is better: `-distance (m)` if that is to be minimised."""
+        if self.maximise:
+            return self.label
+        return f"-{replace(self, expression=_in_parentheses(self.expression)).label}"
+
+    def document(self) -> dict[str, str | bool]:
+        """As JSON values."""
+        return {"expression": self.expression, "unit": self.unit, "maximise": self.maximise}
+
     @cached_property
     def _tree(self) -> ast.expr:
         if len(self.expression) > _MOST_CHARACTERS:
@@ -81,9 +97,17 @@ class Objective:
             found = np.asarray(_value(self._tree, values), dtype=np.float64)
         return np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
 
-    def gain(self, values: Values) -> Values:
-        """The values such that more is better."""
+    @overload
+    def gain(self, values: float) -> float: ...
+    @overload
+    def gain(self, values: Values) -> Values: ...
+    def gain(self, values: Values | float) -> Values | float:
+        """The values such that more is better, and back."""
         return values if self.maximise else -values
+
+
+def _in_parentheses(expression: str) -> str:
+    return expression if expression.isidentifier() else f"({expression})"
 
 
 def _expected(expression: str) -> str:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from geswarm.rules.findings import Finding
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import footbot
+from geswarm.sim import arena_checks, footbot
+from geswarm.sim.arena import Arena, Band, Box
+from geswarm.sim.arena_checks import Problem
+from geswarm.sim.objective import OF_THE_RUN
+from geswarm.sim.parameter import Parameter, listed, shown
+from geswarm.sim.scenario_words import word_problems
 
 
 class ScenarioError(ValueError):
@@ -22,35 +24,12 @@ class ScenarioError(ValueError):
         super().__init__("\n".join(str(finding) for finding in self.findings))
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """What a parameter may be: low <= value <= high, or low < value if `above`."""
-
-    kind: type[int] | type[float]
-    low: float
-    high: float
-    unit: str = ""
-    above: bool = False
-
-    def problem(self, value: object) -> str | None:
-        """What is wrong with a value, or None."""
-        whole = self.kind is int
-        if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
-            return f"expected a {'whole ' if whole else ''}number, got {_shown(value)}"
-        if whole and not isinstance(value, int | np.integer):
-            return f"expected a whole number, got {_shown(value)}"
-        if value <= self.high and (value > self.low if self.above else value >= self.low):
-            return None
-        low = f"more than {self.low:g}" if self.above else f"at least {self.low:g}"
-        return f"expected {low} and at most {self.high:g}{self.unit}, got {_shown(value)}"
-
-
 _LEAST = 1e-6
 """What the kernels divide by must not be so small that single precision has no inverse of it."""
 
 PARAMETERS: Mapping[str, Parameter] = {
     "robots": Parameter(int, 1, 200_000),
-    "objects": Parameter(int, 1, 200_000),
+    "objects": Parameter(int, 0, 200_000),
     "duration": Parameter(float, CONTROL_STEP, 1e7, " s"),
     "width": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
     "length": Parameter(float, 2 * footbot.RADIUS, 1e4, " m", above=True),
@@ -59,6 +38,7 @@ PARAMETERS: Mapping[str, Parameter] = {
     "light": Parameter(float, 0, 1e6, " m"),
     "zone_miss": Parameter(float, 0, 1),
     "grip_reach": Parameter(float, _LEAST, 1e4, " m"),
+    "object_range": Parameter(float, _LEAST, 1e4, " m"),
     "object_margin": Parameter(float, 0, 1e4, " m"),
     "random_walk": Parameter(float, 0, 1e6, " s", above=True),
     "max_speed": Parameter(float, 0, 10, " m/s", above=True),
@@ -67,64 +47,144 @@ PARAMETERS: Mapping[str, Parameter] = {
     "rab_range": Parameter(float, _LEAST, 1e4, " m"),
     "avoidance_gain": Parameter(float, 0, 1e3),
 }
-"""What each parameter may be; `random_walk` is a pair of these."""
+"""What each number may be; `random_walk` is a pair of these."""
+
+OF_THE_ARENA = ("width", "length", "nest", "source", "light")
+"""Numbers that belong to the arena, where it has such a thing."""
+_IN_THE_ARENA = ("width", "length", "outline", "obstacles", "patches", "lights", "start", "floor")
 
 
 def written(key: str) -> str:
     """A parameter as a scenario file writes it."""
-    return f"arena: {key}" if key in ("width", "length") else key
+    return f"arena: {key}" if key.split()[0] in _IN_THE_ARENA else key
 
 
-def problems(values: Mapping[str, object]) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Everything wrong with a set of parameters, as (parameters concerned, message).
+def number_problems(values: Mapping[str, object]) -> Iterator[Problem]:
+    """Every number that is wrong by itself, of some of `PARAMETERS`."""
+    for key, parameter in PARAMETERS.items():
+        if key in values:
+            check = _pair_problem if key == "random_walk" else Parameter.problem
+            if message := check(parameter, values[key]):
+                yield (key,), message
 
-    Whether the numbers fit together is checked once all are there and each is right by itself.
+
+def problems(values: Mapping[str, Any]) -> Iterator[Problem]:
+    """Everything wrong with the fields of a scenario, as (parameters concerned, message).
+
+    Whether they fit together is checked once each is right by itself.
     """
-    wrong = False
-    for key, value in values.items():
-        parameter = PARAMETERS[key]
-        if key == "random_walk":
-            message = _pair_problem(parameter, value)
-        else:
-            message = parameter.problem(value)
-        if message:
-            wrong = True
-            yield (key,), message
-    if not wrong and len(values) == len(PARAMETERS):
-        yield from _misfits(values)
+    arena = values["arena"]
+    of_arena = _numbers_of(arena) if isinstance(arena, Arena) else {}
+    found = list(number_problems({**values, **of_arena}))
+    found += word_problems(values)
+    if not any(key in OF_THE_ARENA for keys, _ in found for key in keys):
+        found += arena_checks.problems(arena)
+    yield from found or _misfits(values, of_arena)
+
+
+def _numbers_of(arena: Arena) -> dict[str, Any]:
+    """The numbers that an arena has, of `OF_THE_ARENA`; it need not be right."""
+    found: dict[str, Any] = {}
+    if isinstance(arena.outline, Box):
+        found |= {"width": arena.outline.width, "length": arena.outline.length}
+    found |= {zone: band.depth for zone in ("nest", "source") if (band := arena.zone(zone))}
+    return found | ({"light": arena.far_light.y} if arena.far_light else {})
 
 
 def _pair_problem(parameter: Parameter, value: object) -> str | None:
     if not isinstance(value, list | tuple) or len(value) != 2:
-        return f"expected two numbers [min, max], got {_shown(value)}"
+        return f"expected two numbers [min, max], got {shown(value)}"
     for part in value:
         if message := parameter.problem(part):
             return message
     if value[0] > value[1]:
-        return f"expected [min, max], got min {_shown(value[0])} > max {_shown(value[1])}"
+        return f"expected [min, max], got min {shown(value[0])} > max {shown(value[1])}"
     return None
 
 
-def _misfits(values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
-    """What does not fit together, each number being right by itself."""
-    width, length = values["width"], values["length"]
-    nest, source = values["nest"], values["source"]
-    margin = objects_from_walls(values["object_margin"], values["grip_reach"])
+def _misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> Iterator[Problem]:
+    """What does not fit together, each part being right by itself."""
+    arena: Arena = values["arena"]
+    if "length" in of_arena:
+        yield from _zone_misfits(of_arena)
+    yield from _object_misfits(values, of_arena)
+    yield from _start_misfits(values, of_arena)
+    if not arena.banded and values["max_speed"] * CONTROL_STEP >= footbot.RADIUS:
+        most = footbot.RADIUS / CONTROL_STEP
+        message = f"expected less than {most:g} m/s, or robots get through walls and obstacles"
+        yield ("max_speed", "outline", "obstacles"), f"{message}, got {shown(values['max_speed'])}"
+    yield from _term_misfits(values)
+
+
+def _term_misfits(values: Mapping[str, Any]) -> Iterator[Problem]:
+    """Whether there are all the things that are named; the library of terms is asked here."""
+    initial, behaviours = values["initial_behaviour"], values["behaviours"]
+    if initial and initial not in behaviours:
+        message = f"expected one of {listed(behaviours)}, got {initial!r}"
+        yield ("initial_behaviour", "behaviours"), message
+    known = (*values["measures"], *OF_THE_RUN)
+    for name in values["objective"].names:
+        if name not in known:
+            message = f"there is no measure {name!r}; known are {listed(known)}"
+            yield ("objective", "measures"), message
+    named = values["objective"].names
+    if set(named) <= set(OF_THE_RUN):
+        counted = listed(values["measures"])
+        message = f"expected at least one measure in it; counted are {counted}"
+        yield ("objective", "measures"), message
+
+
+def _zone_misfits(of_arena: Mapping[str, Any]) -> Iterator[Problem]:
+    """Whether nest and source, where they are bands, have room in a rectangle."""
+    length = of_arena["length"]
+    nest, source = of_arena.get("nest", 0.0), of_arena.get("source", 0.0)
     for zone, depth in (("nest", nest), ("source", source)):
         if depth > length:
             yield (zone, "length"), f"{depth} m deep, but the arena is {length} m long"
     if nest <= length and source <= length and nest + source > length * (1 + 1e-12):
         message = f"nest and source overlap: {nest} m + {source} m > arena length {length} m"
         yield ("source", "nest", "length"), message
-    if margin >= source or 2 * margin >= width:
+
+
+def _object_misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> Iterator[Problem]:
+    """Whether objects have a place to lie that robots can reach."""
+    arena: Arena = values["arena"]
+    if not values["objects"]:
+        if arena.banded and "source" in of_arena:
+            message = Parameter(int, 1, PARAMETERS["objects"].high).problem(0)
+            yield ("objects", "source"), f"{message}, since there is a source"
+        return
+    if "source" not in arena.areas:
+        message = "objects lie in the area called source, and there is none"
+        yield ("objects", "patches"), message
+        return
+    margin = objects_from_walls(values["object_margin"], values["grip_reach"])
+    if arena.banded and "source" in of_arena:
+        full = margin >= of_arena["source"] or 2 * margin >= of_arena["width"]
+    else:
+        full = not arena_checks.has_room_for_objects(arena, margin)
+    if full:
         needed = margin > values["object_margin"]
         reason = ", without which none reaches a corner," if needed else ""
         message = f"a margin of {margin:g} m{reason} leaves no room for objects in the source"
-        yield ("object_margin", "source", "width", "grip_reach"), message
-    room = robots_in_nest(width, length, nest)
-    if nest <= length and values["robots"] > room:
-        message = f"{values['robots']} do not fit in the nest, which has room for {room}"
-        yield ("robots", "nest", "width", "length"), message
+        keys = ("object_margin", "source", "width", "grip_reach", "patches", "outline", "obstacles")
+        yield keys, message
+
+
+def _start_misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> Iterator[Problem]:
+    """Whether robots have room where they start."""
+    arena, robots = values["arena"], values["robots"]
+    if arena.banded and isinstance(arena.start, Band) and arena.start == arena.zone("nest"):
+        width, length, nest = (of_arena[key] for key in ("width", "length", "nest"))
+        room = robots_in_nest(width, length, nest)
+        if nest <= length and robots > room:
+            message = f"{robots} do not fit in the nest, which has room for {room}"
+            yield ("robots", "nest", "width", "length"), message
+        return
+    room = arena_checks.room_at_start(arena)
+    if robots > room:
+        message = f"{robots} do not fit where they start, which has room for about {room}"
+        yield ("robots", "start", "outline", "width", "length", "obstacles"), message
 
 
 def objects_from_walls(margin: float, grip_reach: float) -> float:
@@ -140,22 +200,3 @@ def robots_in_nest(width: float, length: float, nest: float) -> int:
         return 0
     columns = 1 + math.floor((width - diameter) / diameter)
     return columns * (1 + math.floor(depth / diameter))
-
-
-def _shown(value: Any) -> str:
-    """A value as the reader knows it, with help where YAML took a number for text."""
-    if value is None:
-        return "nothing"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, int) and abs(value) >= 10**15:
-        return "a number of more than 15 digits"
-    if isinstance(value, int | float | np.integer | np.floating):
-        return str(value)
-    if not isinstance(value, str):
-        return f"a {type(value).__name__}"
-    short = value if len(value) <= 40 else f"{value[:37]}..."
-    try:
-        return f"the text {short!r} (as a number: {float(value)})"
-    except ValueError:
-        return f"the text {short!r}"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, TypeAlias
 
 import yaml
 
@@ -13,19 +15,25 @@ from geswarm.plain_text import NotTextError, read_file
 from geswarm.rules.findings import Finding, Place, shown
 from geswarm.rules.limits import MAX_CHARACTERS
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
-from geswarm.sim.scenario_checks import PARAMETERS, ScenarioError, problems, written
+from geswarm.sim.arena_checks import Problem
+from geswarm.sim.arena_file import ARENA_KEYS, ArenaFileError, ArenaReader, Given, build, inherited
+from geswarm.sim.scenario_checks import (
+    OF_THE_ARENA,
+    PARAMETERS,
+    ScenarioError,
+    number_problems,
+    problems,
+)
+from geswarm.sim.scenario_words import WORDS, WordReader, word_problems
+from geswarm.sim.yaml_items import item_of, unknown_key
 
 _FOLDER = Path(__file__).parent / "scenarios"
 _ROOT = "paper"
-_ARENA = ("width", "length")
-_TOP = ("extends", "arena", *(key for key in PARAMETERS if key not in _ARENA))
-
-
-class _Given(NamedTuple):
-    """A value and where it is written."""
-
-    value: Any
-    place: Place
+NOTHING = "nothing"
+"""What a scenario extends that inherits nothing."""
+Misfits: TypeAlias = Callable[[Mapping[str, Any]], Iterable[Problem]]
+_TOP = ("extends", "arena", *(key for key in PARAMETERS if key not in ARENA_KEYS), *WORDS)
+_NEEDED = ("robots", "duration", "preconditions", "behaviours", "measures", "objective")
 
 
 def built_in_names() -> list[str]:
@@ -38,46 +46,99 @@ def built_in_names() -> list[str]:
     return sorted((path.stem for path in _FOLDER.glob("*.yaml")), key=order)
 
 
-def read(name_or_path: str) -> tuple[str, dict[str, Any]]:
-    """Name and all parameters of a built-in scenario or a file, checked.
+def about(name: str) -> str:
+    """The comment with which the file of a built-in scenario begins."""
+    lines = (_FOLDER / f"{name}.yaml").read_text(encoding="utf-8").splitlines()
+    comment = itertools.takewhile(lambda line: line.startswith("#"), lines)
+    return " ".join(line.strip("# ") for line in comment)
+
+
+def read(
+    name_or_path: str, defaults: Mapping[str, Any], misfits: Misfits
+) -> tuple[str, dict[str, Any]]:
+    """Name and fields of a built-in scenario or a file, checked.
+
+    Args:
+        name_or_path: Which.
+        defaults: Of fields that need not be given.
+        misfits: Finds what is wrong with fields that are right by themselves.
 
     Raises:
         ScenarioError: It does not exist or is wrong.
     """
-    reader = _Reader()
+    reader = _Reader(defaults, misfits, with_code=True)
     path = reader.find(name_or_path, Path(), Place())
     given = reader.file(path, Place(), ()) if path else {}
     return (path.stem if path else ""), reader.checked(given, _shown(path))
 
 
-def parse(text: str, name: str) -> dict[str, Any]:
-    """All parameters of a scenario given as text, checked.
+def parse(
+    text: str,
+    name: str,
+    defaults: Mapping[str, Any],
+    misfits: Misfits,
+    folder: Path | None,
+) -> dict[str, Any]:
+    """The fields of a scenario given as text, checked.
+
+    Args:
+        text: What a file would hold.
+        name: What messages call it.
+        defaults: Of fields that need not be given.
+        misfits: Finds what is wrong with fields that are right by themselves.
+        folder: Where the text lies; None if it comes from no file, and may name no code.
 
     Raises:
         ScenarioError: The text is wrong.
     """
-    reader = _Reader()
-    return reader.checked(reader.text(text, name, Path(), ()), name)
+    reader = _Reader(defaults, misfits, with_code=folder is not None)
+    return reader.checked(reader.text(text, name, folder or Path(), ()), name)
 
 
 class _Reader:
-    """Reads a scenario with all that it extends and collects what is wrong."""
+    """Reads a scenario with all that it extends and collects what is wrong.
 
-    def __init__(self) -> None:
+    `with_code` says whether it may name a file with terms of one's own.
+    """
+
+    def __init__(self, defaults: Mapping[str, Any], misfits: Misfits, with_code: bool) -> None:
         self.findings: list[Finding] = []
+        self._defaults = defaults
+        self._misfits = misfits
+        self._with_code = with_code
+        self._root = Place()
 
     def wrong(self, place: Place, message: str) -> None:
         self.findings.append(Finding(place, message))
 
-    def checked(self, given: dict[str, _Given], source: str) -> dict[str, Any]:
-        """The values; misfits are reported in the file being read if it has a part in them."""
-        values = {key: given[key].value for key in PARAMETERS if key in given}
-        for keys, message in problems(values):
-            here = [key for key in keys if given[key].place.source == source] or list(keys)
-            self.wrong(given[here[0]].place, message)
-        if self.findings:
+    def checked(self, given: dict[str, Given], source: str) -> dict[str, Any]:
+        """The fields; misfits are reported in the file being read if it has a part in them."""
+        values = {key: given[key].value for key in (*PARAMETERS, *WORDS) if key in given}
+        for keys, message in (*number_problems(values), *word_problems(values)):
+            self.wrong(given[keys[0]].place, message)
+        self._require(not self.findings)
+        if missing := [key for key in _NEEDED if key not in values]:
+            self.wrong(self._root, f"expected {', '.join(missing)}, too")
+        places: dict[str, Place] = {}
+        try:
+            values["arena"], places = build(given)
+        except ArenaFileError as error:
+            self.wrong(error.place or self._root, str(error))
+        self._require(not self.findings)
+        places |= {key: each.place for key, each in given.items()}
+        own = {key: value for key, value in values.items() if key not in OF_THE_ARENA}
+        fields = {**self._defaults, **own}
+        for find in (problems, self._misfits):
+            for keys, message in find(fields):
+                known = [places[key] for key in keys if key in places] or [self._root]
+                here = [place for place in known if place.source == source] or known
+                self.wrong(here[0], message)
+            self._require(not self.findings)
+        return fields
+
+    def _require(self, right: bool) -> None:
+        if not right:
             raise ScenarioError(self.findings)
-        return values
 
     def find(self, name_or_path: str, folder: Path, place: Place) -> Path | None:
         """Where a scenario is; names go before paths."""
@@ -95,7 +156,7 @@ class _Reader:
         self.wrong(place, f"there is no scenario or file {shown(name_or_path)}; {hint}")
         return None
 
-    def file(self, path: Path, place: Place, trail: tuple[Path, ...]) -> dict[str, _Given]:
+    def file(self, path: Path, place: Place, trail: tuple[Path, ...]) -> dict[str, Given]:
         """What a file and all that it extends give; `trail` is the way to it."""
         if path.resolve() in trail:
             chain = " -> ".join(step.name for step in (*trail, path))
@@ -113,24 +174,28 @@ class _Reader:
 
     def text(
         self, text: str, source: str, folder: Path, trail: tuple[Path, ...]
-    ) -> dict[str, _Given]:
+    ) -> dict[str, Given]:
         """What a text and all that it extends give."""
-        own = self._own(text, source)
+        own = self._own(text, source, folder)
         if own is None:
             return {}
         base: Path | None = _FOLDER / f"{_ROOT}.yaml"
         place = Place(source)
         if "extends" in own:
             name, place = own.pop("extends")
-            if isinstance(name, str):
+            if name == NOTHING:
+                base, self._root = None, place
+            elif isinstance(name, str):
                 base = self.find(name, folder, place)
             else:
                 self.wrong(place, "expected the name or path of a scenario")
-        elif trail and trail[-1] == (_FOLDER / f"{_ROOT}.yaml").resolve():
-            base = None
-        return {**(self.file(base, place, trail) if base else {}), **own}
+        above = self.file(base, place, trail) if base else {}
+        if "numbers" in above and "numbers" in own:
+            merged = {**dict(above["numbers"].value), **dict(own["numbers"].value)}
+            own["numbers"] = Given(tuple(merged.items()), own["numbers"].place)
+        return {**inherited(above, own), **own}
 
-    def _own(self, text: str, source: str) -> dict[str, _Given] | None:
+    def _own(self, text: str, source: str, folder: Path) -> dict[str, Given] | None:
         """What this text gives, flat (`arena` resolved), or None if it is not such a file."""
         try:
             node = compose(text)
@@ -140,36 +205,49 @@ class _Reader:
         if not isinstance(node, yaml.MappingNode):
             self.wrong(Place(source), "expected lines such as `extends: paper` and `robots: 8`")
             return None
-        own = self._mapping(node, source, _TOP, "")
-        arena = own.pop("arena", None)
-        if arena is not None:
-            arena_node = next(value for key, value in node.value if key.value == "arena")
-            if isinstance(arena_node, yaml.MappingNode):
-                own |= self._mapping(arena_node, source, _ARENA, "arena: ")
+        own: dict[str, Given] = {}
+        arena: dict[str, Given] = {}
+        words = WordReader(self.wrong, folder if self._with_code else None)
+        for key, part, given in self._entries(node, source):
+            if key == "arena":
+                arena = self._arena(part, given.place)
+            elif key in WORDS:
+                value = words.read(key, item_of(part, given.place))
+                if value is not None:
+                    own[key] = Given(value, given.place)
             else:
-                self.wrong(arena.place, "expected {width: ..., length: ...}")
-        return own
+                own[key] = given
+        return {**own, **arena}
 
-    def _mapping(
-        self, node: yaml.MappingNode, source: str, known: tuple[str, ...], inside: str
-    ) -> dict[str, _Given]:
-        """The known keys of a mapping."""
-        own: dict[str, _Given] = {}
-        for key_node, value_node in node.value:
+    def _arena(self, node: yaml.Node, place: Place) -> dict[str, Given]:
+        """What `arena` gives."""
+        if not isinstance(node, yaml.MappingNode):
+            self.wrong(place, "expected {width: ..., length: ...}")
+            return {}
+        reader = ArenaReader(self.wrong)
+        return reader.read(reader.keys(item_of(node, place), ARENA_KEYS) or {})
+
+    def _entries(
+        self, node: yaml.MappingNode, source: str
+    ) -> Iterator[tuple[str, yaml.Node, Given]]:
+        """The known keys of a file that are given once and can be understood."""
+        first: dict[str, int] = {}
+        for key_node, part in node.value:
             line = key_node.start_mark.line + 1
             key = key_node.value if isinstance(key_node, yaml.ScalarNode) else None
-            if key not in known:
-                self.wrong(Place(source, line), _unknown(key, known, inside))
+            if key not in _TOP:
+                elsewhere = {name: f"arena: {name}" for name in ARENA_KEYS}
+                self.wrong(Place(source, line), unknown_key(key, _TOP, "", elsewhere))
                 continue
-            place = Place(source, line, element=f"{inside}{key}")
-            if key in own:
-                self.wrong(place, f"given twice, first in line {own[key].place.line}")
+            place = Place(source, line, element=key)
+            if key in first:
+                self.wrong(place, f"given twice, first in line {first[key]}")
                 continue
+            first[key] = line
             try:
-                own[key] = _Given(value_of(value_node), place)
+                yield key, part, Given(value_of(part), place)
             except YamlError as error:
-                self.wrong(Place(source, error.line, element=place.element), str(error))
-        return own
+                self.wrong(Place(source, error.line, element=key), str(error))
 
 
 def _shown(path: Path | None) -> str:
@@ -177,12 +255,3 @@ def _shown(path: Path | None) -> str:
     if path is None:
         return ""
     return path.name if path.parent == _FOLDER else str(path)
-
-
-def _unknown(key: str | None, known: tuple[str, ...], inside: str) -> str:
-    places = {name: name for name in known}
-    if not inside:
-        places |= {name: written(name) for name in _ARENA}
-    near = difflib.get_close_matches(str(key).lower(), places, n=1, cutoff=0.5)
-    hint = f"did you mean {places[near[0]]}?" if near else f"known are {', '.join(known)}"
-    return f"unknown key {inside}{shown(key)}; {hint}"

@@ -20,8 +20,9 @@ from geswarm.sim.cores import available_cores
 from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import cache
 from geswarm.sim.kernels.jit import vector_settings
-from geswarm.sim.program import compile_controllers
+from geswarm.sim.library import parts_of
 from geswarm.sim.scenario import load_scenario
+from geswarm.sim.tables import compile_controllers
 from geswarm.sim.world import World
 
 COMPILING = "Compiling the simulator for this machine, once: about 25 s …"
@@ -63,7 +64,9 @@ def warm_up(announce: Callable[[str], None] | None = None) -> None:
 
 def compile_tables() -> None:
     """Compile what makes control tables, which takes half of the time."""
-    compile_controllers([RuleSet()], fails(load_scenario("paper")))
+    scenario = load_scenario("paper")
+    parts = parts_of(scenario)
+    compile_controllers([RuleSet()], fails(scenario, parts), parts)
 
 
 def _compile_beside() -> subprocess.Popen[bytes] | None:

@@ -12,9 +12,8 @@ from geswarm.sim.assembly.records import robot_type, work_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.encoding import fill_robots, grid_for, is_wide, numbers_by_name, start_of
 from geswarm.sim.kernels.state import LANES
+from geswarm.sim.library import parts_of
 from geswarm.sim.scenario import Scenario
-from geswarm.sim.terms.foraging import FORAGING as PARTS
-from geswarm.sim.terms.parts import Parts
 
 _MOST_PAIRS = 100_000_000
 
@@ -25,17 +24,18 @@ class Swarm:
     Attributes:
         blocks: Of `assembly.records.robot_type`, 64 robots each; the last one may hold fewer.
         objects: float32, positions, shape (objects, 2).
+        parts: What the scenario is composed of.
         steps: Control steps run so far.
     """
 
-    def __init__(
-        self, scenario: Scenario, rules: bool, parts: Parts = PARTS, wide: bool | None = None
-    ) -> None:
+    def __init__(self, scenario: Scenario, rules: bool, wide: bool | None = None) -> None:
         """Make room; `rules` says that they are interpreted one by one."""
+        parts = parts_of(scenario)
         self.layout = Layout(
             swarm=True, rules=rules, wide=is_wide(scenario) if wide is None else wide
         )
-        self._parts, self._scenario = parts, scenario
+        self._scenario = scenario
+        self.parts = parts
         self._kernel = assemble(parts, self.layout)
         self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
         blocks = -(-scenario.robots // LANES)
@@ -47,7 +47,7 @@ class Swarm:
 
     def start(self, seed: int, individual: int = 0, replicate: int = 0) -> None:
         """Place robots and objects."""
-        began = start_of(self._scenario, np.array([(0, seed, individual, replicate)]))
+        began = start_of(self._scenario, np.array([(0, seed, individual, replicate)]), self.parts)
         robots = np.zeros(len(self.blocks) * LANES, dtype=began.robots.dtype)
         robots["cos"] = 1.0
         robots[: self._scenario.robots] = began.robots[0]
@@ -112,6 +112,6 @@ class Swarm:
             if self.layout.wide:
                 robot[f"low_{name}"][i % LANES] = place - float(robot[name][i % LANES])
 
-    def measured(self, name: str) -> Any:
+    def measured(self, name: str) -> float:
         """The sum of a measure over the robots."""
-        return self.of_robots(name).sum(dtype=np.float64).item()
+        return float(self.of_robots(name).sum(dtype=np.float64))

@@ -22,6 +22,7 @@ const LABEL = 14; // px between the labels of two levels
  * @property {Line[]} lines The first one's values of x are those that can be pointed at.
  * @property {{label: string, y: number}[]} levels
  * @property {{x: number, y: ?number, text: string}[]} marks
+ * @property {string} [label] What the values are.
  */
 
 export class Chart {
@@ -51,7 +52,7 @@ export class Chart {
 
   #paint() {
     const width = this.node.clientWidth;
-    const { lines, levels, marks } = this.#data;
+    const { lines, levels, marks, label = "fitness" } = this.#data;
     if (!width || !lines.some((line) => line.x.length)) {
       this.picture.replaceChildren();
       return;
@@ -63,7 +64,7 @@ export class Chart {
     this.#scale = { x, y, width };
     this.picture.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
     this.picture.replaceChildren(
-      ...grid(across.ticks, up.ticks, x, y, width),
+      ...grid(across.ticks, up.ticks, x, y, width, label),
       ...levels.map((level) => levelLine(level, y, width)),
       ...lines.map((line) => curve(line, x, y)).reverse(),
       ...levels.map((level, i) => levelName(level, levels.slice(0, i), y)),
@@ -164,7 +165,7 @@ function text(words, attributes) {
   return node;
 }
 
-function grid(across, up, x, y, width) {
+function grid(across, up, x, y, width, label) {
   const bottom = HEIGHT - BOTTOM;
   return [
     ...up.map((tick) => svg("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y(tick), y2: y(tick) })),
@@ -172,7 +173,7 @@ function grid(across, up, x, y, width) {
     ...across.map((tick) => svg("line", { class: "grid", x1: x(tick), x2: x(tick), y1: TOP, y2: bottom })),
     ...across.map((tick) => text(String(tick), { class: "tick", x: x(tick), y: bottom + 12 })),
     text("generation", { class: "tick", x: (LEFT + width - RIGHT) / 2, y: HEIGHT - 5 }),
-    text("objects collected", { class: "tick", transform: `translate(10 ${(TOP + bottom) / 2}) rotate(-90)` }),
+    text(label, { class: "tick", transform: `translate(10 ${(TOP + bottom) / 2}) rotate(-90)` }),
   ];
 }
 

@@ -14,7 +14,10 @@ export function signed(value, decimals = 1) {
   return Number(value.toFixed(decimals)) > 0 ? `+${text}` : text;
 }
 
-export const interval = (low, high) => `[${decimal(low)}, ${decimal(high)}]`;
+export const interval = (low, high, decimals = 1) => `[${decimal(low, decimals)}, ${decimal(high, decimals)}]`;
+
+/** @returns {number} Three where values are small, as shares are; else one. */
+export const decimalsFor = (values) => (values.some((value) => Math.abs(value) >= 2) ? 1 : 3);
 
 /** @returns {string} "p = 0.012", or nothing if there is no p-value. */
 export function pValue(p) {
@@ -42,12 +45,13 @@ export function quantile(values, share) {
  */
 export function axis(values) {
   const least = Math.min(...values);
-  const span = Math.max(Math.max(...values) - least, 4);
+  const most = Math.max(...values);
+  const span = Math.max(most - least, Math.max(most, -least) < 2 ? 0.1 : 4);
   const power = 10 ** Math.floor(Math.log10(span / 4));
   const step = [1, 2, 5, 10].map((round) => round * power).find((size) => span / size <= 6);
   const first = Math.floor(least / step) * step;
   const count = Math.max(1, Math.ceil((least + span - first) / step));
-  const ticks = Array.from({ length: count + 1 }, (_, i) => first + i * step);
+  const ticks = Array.from({ length: count + 1 }, (_, i) => Number((first + i * step).toPrecision(9)));
   const percent = (value) => 2 + (96 * (value - first)) / (count * step);
   return { ticks, percent };
 }

@@ -80,7 +80,7 @@ export class Ancestors {
 
 const COLUMNS = {
   Generation: "In which it was bred",
-  Fitness: "Objects collected per run, mean of its evaluations",
+  Fitness: "Of the objective per run, mean of its evaluations",
   "Bred by": "What made it out of its parents",
   Codons: "Length of its genome",
 };

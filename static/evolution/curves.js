@@ -13,7 +13,7 @@ export class Curves {
   #others = [];
 
   constructor() {
-    this.chart = new Chart("curves", "Objects collected over generations");
+    this.chart = new Chart("curves", "Fitness over generations");
     this.legend = h("div", { class: "chart-legend" });
     identify(this.legend, "curves-legend");
     this.node = h("div", { class: "curves", hidden: true }, this.chart.node, this.legend);
@@ -48,7 +48,8 @@ export class Curves {
     this.node.hidden = lines.length === 0;
     const levels = (own?.references ?? []).map(({ name, mean }) => ({ label: name, y: mean }));
     levels.sort((a, b) => b.y - a.y);
-    this.chart.show({ lines, levels, marks: together(own?.marks ?? []) });
+    const label = own?.label ?? "";
+    this.chart.show({ lines, levels, marks: together(own?.marks ?? []), label });
     this.legend.replaceChildren(...lines.map((line) => h("span", {}, swatch(line), line.label)));
   }
 }

@@ -69,7 +69,7 @@ export class Population {
 
 const COLUMNS = {
   "#": "Rank: by fitness; where individuals are evaluated again, less what may be luck, and copies of a behaviour last",
-  Fitness: "Objects collected per run, mean of its evaluations",
+  Fitness: "Of the objective per run, mean of its evaluations",
   "Eval.": "How often it was evaluated",
   Codons: "Length of its genome",
   Rules: "How many rules it has",

@@ -55,6 +55,7 @@
  * @typedef {object} CurvesMessage
  * @property {"curves"} type
  * @property {?string} run
+ * @property {string} label What the curves are of: the objective, or what it is less than nothing.
  * @property {boolean} reevaluated Its best is evaluated again and again, so that its curve can fall.
  * @property {number[]} generation
  * @property {number[]} best_so_far

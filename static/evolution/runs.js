@@ -62,7 +62,7 @@ class RunItem {
     this.box = h("input", { type: "checkbox", onchange: () => send(request.compare(name, this.box.checked)) });
     this.open = h("button", { type: "button", class: "run-name", title: "Look at this run", onclick: () => send(request.open(name)) }, name);
     this.details = h("div", { class: "run-details" });
-    this.best = h("b", { class: "run-best", title: "Best so far, objects collected" });
+    this.best = h("b", { class: "run-best", title: "Best fitness so far" });
     this.state = h("span", { class: "run-state" });
     this.go = h("button", { type: "button", class: "quiet", onclick: () => resume(name) }, "Resume");
     const text = `The directory ${name} with its history and best rules is removed for good.`;

@@ -32,7 +32,8 @@ export class Boxes {
     this.error.textContent = error;
     this.error.hidden = !error;
     this.node.hidden = scenarios.length === 0;
-    this.title.textContent = `Collected objects, ${runs} runs each, seed ${seed}`;
+    const objectives = new Set(scenarios.map(({ objective }) => objective));
+    this.title.textContent = `${[...objectives].join(" / ")}, ${runs} runs each, seed ${seed}`;
     this.tables.replaceChildren(...scenarios.map((scenario) => table(scenario, against)));
     const colour = `In colour, better or worse: p Holm < ${SIGNIFICANT}.`;
     this.explanation.textContent = explanation && `${explanation} ${colour}`;
@@ -42,7 +43,7 @@ export class Boxes {
 const HEADINGS = ["mean", "median", "sd", "p", "p Holm", "effect"];
 
 function table({ name, results }, against) {
-  const scale = axis(results.flatMap(({ collected }) => collected));
+  const scale = axis(results.flatMap(({ fitness }) => fitness));
   const heads = HEADINGS.map((heading) => h("th", { scope: "col" }, heading));
   const head = h("tr", {}, h("th", { scope: "col", class: "scenario" }, name), h("td", {}), ...heads);
   const rows = results.map((result) => row(result, scale, result.rules === against));
@@ -70,15 +71,15 @@ function p(value) {
 }
 
 /** A dot for every run, a box over the middle half, a line at the median, whiskers. */
-function plot({ rules, collected, median }, { ticks, percent }) {
+function plot({ rules, fitness, median }, { ticks, percent }) {
   const at = (value) => `${percent(value).toFixed(2)}%`;
-  const [low, high] = [0.25, 0.75].map((share) => quantile(collected, share));
+  const [low, high] = [0.25, 0.75].map((share) => quantile(fitness, share));
   const reach = 1.5 * (high - low);
-  const within = collected.filter((value) => low - reach <= value && value <= high + reach);
+  const within = fitness.filter((value) => low - reach <= value && value <= high + reach);
   const [least, most] = [Math.min(...within), Math.max(...within)];
   const middle = HEIGHT / 2;
   const line = (kind, x1, x2, y1, y2) => svg("line", { class: kind, x1: at(x1), x2: at(x2), y1, y2 });
-  const dots = collected.map((value, i) => {
+  const dots = fitness.map((value, i) => {
     const cy = (3 + ((i * GOLDEN) % 1) * (HEIGHT - 6)).toFixed(1);
     return svg("circle", { cx: at(value), cy, r: 1.6 });
   });

@@ -3,7 +3,6 @@
 /** @typedef {"IDLE" | "RUNNING" | "STOPPED" | "FINISHED" | "FAILED"} CampaignPhase */
 /** @typedef {"HOLDS" | "FAILS" | "OPEN"} ClaimVerdict */
 /** @typedef {{name: string, chosen: boolean}} Offer Something that can be chosen. */
-/** @typedef {{name: string, results: CaseResult[]}} ScenarioResults All rule sets in a scenario. */
 /** @typedef {{name: string, done: number, total: number}} CampaignPart How far a part of a campaign is. */
 /** @typedef {{name: string, mean: number}} CurveLevel What a preset collects. */
 
@@ -80,6 +79,15 @@
  */
 
 /**
+ * All rule sets in a scenario.
+ * @typedef {object} ScenarioResults
+ * @property {string} name
+ * @property {string} objective What the figures are of.
+ * @property {boolean} maximise More is better.
+ * @property {CaseResult[]} results
+ */
+
+/**
  * A campaign that is kept.
  * @typedef {object} KeptCampaign
  * @property {string} name
@@ -112,11 +120,10 @@
  * @typedef {object} CaseResult
  * @property {string} rules
  * @property {string} scenario
- * @property {number[]} collected Of every run.
+ * @property {number[]} fitness Of every run.
  * @property {number} mean
  * @property {number} sd
  * @property {number} median
- * @property {number} lost_mean
  * @property {?number} p_value
  * @property {?number} p_holm
  * @property {?number} effect

@@ -73,6 +73,7 @@ let unanswered = false; // and what was asked for before has not been answered
 const handlers = {
   vocabulary(message) {
     session.vocabulary = message;
+    verdict.measure(message.objective);
     live.name(message);
   },
   rules(received) {

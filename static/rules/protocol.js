@@ -6,13 +6,12 @@
 /** @typedef {BehaviourChange | StateChange} Action */
 /** @typedef {boolean | number | string} Value */
 /** @typedef {"error" | "warning" | "hint"} Severity */
-/** @typedef {"current" | "before" | "evo8" | "hand-coded"} Role */
 /** @typedef {{name: string, title: string}} PresetOffer A rule set that can be loaded by its name. */
-/** @typedef {{role: Role, name: string, collected: number[]}} RoleSample Collected objects of each run. */
+/** @typedef {{role: string, name: string, fitness: number[]}} RoleSample The objective in each run. */
 /** @typedef {{name: string, you: boolean}} Person Somebody who looks at the rules. */
 
 /**
- * The names that rules are made of, with their colours, and the presets.
+ * The names that rules are made of, with their colours, the presets, and the objective.
  * @typedef {object} VocabularyMessage
  * @property {"vocabulary"} type
  * @property {PerceptOffer[]} preconditions
@@ -20,6 +19,7 @@
  * @property {StateOffer[]} internal_states
  * @property {number[]} probabilities
  * @property {PresetOffer[]} presets
+ * @property {ObjectiveOffer} objective
  */
 
 /**
@@ -218,6 +218,15 @@
  */
 
 /**
+ * What rules are for.
+ * @typedef {object} ObjectiveOffer
+ * @property {string} expression Over measures.
+ * @property {string} unit Of its values.
+ * @property {string} label Both.
+ * @property {boolean} maximise More is better.
+ */
+
+/**
  * The controller that every robot of the swarm runs: rules in order, R1 first.
  * @typedef {object} RuleSet
  * @property {Rule[]} rules
@@ -260,7 +269,7 @@
 /**
  * Mean of the current rules minus mean of the other's, same seeds.
  * @typedef {object} RoleComparison
- * @property {Role} role The other rules.
+ * @property {string} role The other rules.
  * @property {number} difference
  * @property {number} low Lower end of the 95 % interval.
  * @property {number} high Upper end.

@@ -40,8 +40,8 @@ export function worthBar(piece, { least, most }, name) {
   const picture = svg("svg", { height: HEIGHT, "aria-hidden": "true" }, svg("rect", bar));
   picture.append(line("reach", percent(-high), percent(-low), HEIGHT / 2, HEIGHT / 2));
   picture.append(line("zero", zero, zero, 0, HEIGHT));
-  const effect = { needed: "fewer", harmful: "more", idle: "no clear difference" }[kindOf(piece)];
-  const words = `Without ${name}: ${signed(difference)} objects (${effect}), 95 % interval ${interval(low, high)}`;
+  const effect = { needed: "worse", harmful: "better", idle: "no clear difference" }[kindOf(piece)];
+  const words = `Without ${name}: ${signed(difference)} (${effect}), 95 % interval ${interval(low, high)}`;
   const number = h("b", {}, signed(difference));
   return h("span", { class: `worth ${kindOf(piece)}`, title: words, role: "img", "aria-label": words }, picture, number);
 }

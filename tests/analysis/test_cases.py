@@ -23,8 +23,8 @@ def test_each_case_gives_what_it_gives_alone_and_the_order_is_kept():
     assert list(samples) == cases
     for case, found in samples.items():
         (alone,) = evaluate_rule_sets([RULES[case.rules]], case.scenario, 5, 3)
-        assert found.collected.tolist() == alone.collected.tolist()
-        assert found.lost.tolist() == alone.lost.tolist()
+        assert found.fitness.tolist() == alone.fitness.tolist()
+        assert found.measures["lost"].tolist() == alone.measures["lost"].tolist()
     assert told == [(2 * 5 * 4, 120), (2 * 5 * 4 + 2 * 5 * 8, 120)]
 
 
@@ -37,8 +37,8 @@ def test_contrasts_are_corrected_for_the_whole_family():
     values = {"low": range(50), "high": range(100, 150), "same": range(50)}
     cases = {name: Case(name, SHORT) for name in values}
     samples = {
-        cases[name]: Evaluation(np.array(collected), np.zeros(50, dtype=np.int64))
-        for name, collected in values.items()
+        cases[name]: Evaluation(SHORT.objective, np.array(fitness), {})
+        for name, fitness in values.items()
     }
     pairs = [(cases["high"], cases["low"]), (cases["same"], cases["low"])]
     first, second = contrasts(samples, pairs)

@@ -11,8 +11,8 @@ from geswarm.sim import load_scenario
 PAPER = load_scenario("paper")
 
 
-def evaluation(*collected):
-    return Evaluation(np.array(collected), np.zeros(len(collected), dtype=np.int64))
+def evaluation(*fitness):
+    return Evaluation(PAPER.objective, np.array(fitness), {})
 
 
 def test_best_so_far_keeps_every_step_and_the_end():

@@ -1,14 +1,13 @@
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from geswarm.app import palette
 from geswarm.app.scene.arena import Arena
 from geswarm.app.state.view import ArenaView
+from geswarm.sim import load_scenario
 
-PAPER = SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0)
-WIDE = SimpleNamespace(width=21.0, length=4.2, nest=1.5, source=2.0, light=100.0)
+PAPER = load_scenario("paper")
+WIDE = PAPER.with_changes(width=21.0)
 
 
 def view(robots=3, objects=2, behaviour=0, x=0.0):

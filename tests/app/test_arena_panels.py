@@ -15,9 +15,11 @@ from geswarm.app.scene.recorder import LONGEST_SECONDS, Recorder, RecorderPhase
 from geswarm.app.scene.replay import Setting
 from geswarm.app.scene.stage import beside
 from geswarm.app.state.evolution import EvolutionThread
+from geswarm.app.state.score import score
 from geswarm.app.state.session import Session
 from geswarm.rules import Rule, RuleSet, load_preset
-from geswarm.sim import NEEDS_RESET, World, load_scenario
+from geswarm.sim import NEEDS_RESET, World, load_scenario, vocabulary_of
+from geswarm.sim.scenario_checks import PARAMETERS
 
 PAPER = load_scenario("paper")
 SETTING = Setting(PAPER, False, 0, (("EVO 8", load_preset("evo8")),))
@@ -47,11 +49,32 @@ def test_the_inspector_tells_percepts_behaviour_states_and_rule():
     world.step(3000)
     state = world.state
     for robot in range(4):
-        text = robot_html(state, robot, evo8)
+        text = robot_html(world, robot, evo8)
         assert ("an object" in text) == bool(state.carried[robot])
         assert f"R{state.last_rule[robot] + 1}" in text
         for name in ("ON_NEST", "ON_SOURCE", "HAS_OBJECT", "WANT_OBJECT", "DROP_OBJECT"):
             assert name in text
+
+
+def test_the_inspector_tells_what_any_scenario_has():
+    scenario = load_scenario("aac")
+    vocabulary = vocabulary_of(scenario)
+    rules = load_preset("aac", vocabulary)
+    world = World(scenario, rules, 1)
+    world.step(20)
+    text = robot_html(world, 0, rules)
+    for word in ("ON_BLACK", "neighbours", str(world.state.behaviours[world.state.instance[0]])):
+        assert word in text
+    assert "carries" not in text
+    assert "internal states" not in text
+
+
+def test_the_score_is_what_the_scenario_measures():
+    world = World(PAPER, load_preset("evo8"), 1)
+    assert [name for name, _ in score(world)] == ["collected", "picked", "lost"]
+    many = World(load_scenario("aac"), RuleSet(()), 1)
+    many.step(100)
+    assert score(many) == [("on black", f"{many.fitness:.0f}")]
 
 
 def test_comments_are_escaped():
@@ -63,7 +86,7 @@ def test_comments_are_escaped():
 
 def test_every_value_of_the_scenario_can_be_changed():
     changed = {"duration", "name"} | {value.key.partition(".")[0] for value in VALUES}
-    assert changed == set(vars(PAPER))
+    assert changed == {"name", *PARAMETERS}
     for value in VALUES:
         other = PAPER.with_changes(**value.change(PAPER, value.of(PAPER)))
         assert other == PAPER
@@ -72,7 +95,7 @@ def test_every_value_of_the_scenario_can_be_changed():
 
 
 def test_arenas_do_not_overlap():
-    for name in ("paper", "scalability-20", "flexibility-5"):
+    for name in ("paper", "scalability-20", "flexibility-5", "aac"):
         shape = load_scenario(name)
         x, y = beside(shape)
         assert abs(x) > shape.width or abs(y) > shape.length

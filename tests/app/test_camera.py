@@ -1,5 +1,4 @@
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +7,9 @@ from hypothesis import strategies as st
 
 from geswarm.app.scene.camera import FIELD_OF_VIEW, framing
 from geswarm.app.scene.scenery import outer_points
+from geswarm.sim import load_scenario
+
+PAPER = load_scenario("paper")
 
 
 def picture(points, pose, aspect):
@@ -26,16 +28,14 @@ def picture(points, pose, aspect):
 
 @given(st.floats(1, 25), st.floats(1, 25), st.floats(0.4, 3))
 def test_every_arena_fills_the_picture(width, length, aspect):
-    shape = SimpleNamespace(width=width, length=length, nest=1.0, source=1.0, light=100.0)
-    points = outer_points(shape)
+    points = outer_points(PAPER.with_changes(width=width, length=length, nest=0.2, source=0.6))
     places = picture(points, framing(points, aspect), aspect)
     assert np.abs(places).max() <= 1
     assert np.abs(places).max() > 0.9
 
 
 def test_what_is_beside_the_origin_is_in_the_middle():
-    shape = SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0)
-    points = outer_points(shape) + np.array((50.0, -7.0, 0.0))
+    points = outer_points(PAPER) + np.array((50.0, -7.0, 0.0))
     pose = framing(points, 1.35)
     places = picture(points, pose, 1.35)
     assert np.abs(places).max() <= 1
@@ -44,7 +44,7 @@ def test_what_is_beside_the_origin_is_in_the_middle():
 
 
 def test_north_is_up():
-    points = outer_points(SimpleNamespace(width=4.2, length=4.2, nest=1.5, source=2.0, light=100.0))
+    points = outer_points(PAPER)
     south, north, east = np.array([(0, -1, 0), (0, 1, 0), (1, 0, 0)], dtype=float)
     places = picture(np.stack((south, north, east)), framing(points), 1.35)
     assert places[1, 1] > places[0, 1]

@@ -15,7 +15,8 @@ import pytest
 
 from geswarm.app.main import main
 from geswarm.ge import Settings
-from geswarm.rules import load_rule_set
+from geswarm.rules import find_rule_set, load_rule_set
+from geswarm.sim import load_scenario, vocabulary_of
 
 SMALL = ["--no-ui", "--population", "8", "--evaluations", "1"]
 
@@ -291,3 +292,23 @@ def test_a_directory_with_a_run_is_not_overwritten(tmp_path, quick, capsys):
     assert main(common) == 2
     assert "resume this run" in capsys.readouterr().err
     assert (out / "history.csv").read_bytes() == before
+
+
+def test_messages_speak_of_the_objective_in_its_own_sign(tmp_path, capsys):
+    path = tmp_path / "away.yaml"
+    path.write_text(
+        "extends: aac\nduration: 5\nobjective: {minimise: on_black, unit: robot-steps}\n"
+    )
+    out = tmp_path / "run"
+    common = ["--scenario", str(path), "--preset", "modern", "--generations", "2"]
+    assert main([*SMALL, *common, "--out", str(out)]) == 0
+    said = capsys.readouterr().err
+    assert "to minimise on_black (robot-steps)" in said
+    assert "Finished: on_black (robot-steps) of " in said
+    assert f"--rules {out / 'best.yaml'} --scenario {path}" in said
+    assert "best -" not in said
+    assert ": -" not in said
+    best = find_rule_set(str(out / "best.yaml"))
+    assert best.scenario == "away"
+    rules = best.read(vocabulary_of(load_scenario(path)))
+    assert rules.origin.fitness >= 0

@@ -44,7 +44,8 @@ def seen(colour, vision):
 
 @pytest.mark.parametrize("vision", VISION)
 def test_colours_are_told_apart_with_any_colour_vision(vision):
-    behaviours = [palette.behaviour_colour(code) for code in range(len(FORAGING.behaviours))]
+    assert len(palette.BEHAVIOURS) >= 12
+    behaviours = palette.BEHAVIOURS
     for one, other in itertools.combinations([*behaviours, palette.OBJECT], 2):
         distance = np.linalg.norm(seen(one, vision) - seen(other, vision))
         assert distance > CLEARLY_DIFFERENT, (one, other)

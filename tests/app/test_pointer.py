@@ -7,6 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geswarm.app.scene.pointer import Pointer, on_level
+from geswarm.app.state.swarm import ShownSwarm
+from geswarm.rules import RuleSet
+from geswarm.sim import World, load_scenario
+from geswarm.sim.arena_geometry import distances
 
 coordinate = st.floats(-10, 10)
 
@@ -86,3 +90,15 @@ def test_what_is_dragged_stays_under_the_mouse(pointer, told):
     ]
     assert told.calls[0][3:] == pytest.approx((0.95, 1.02))  # it does not jump to the mouse
     assert told.calls[1][3:] == pytest.approx((1.45, 0.52))
+
+
+def test_robots_are_carried_about_in_any_arena_as_far_as_its_walls():
+    scenario = load_scenario("aac")
+    swarm = ShownSwarm(World(scenario, RuleSet(())))
+    for place in ((5.0, 5.0), (-5.0, 0.3), (0.2, -0.1)):
+        swarm.place("robot", 3, *place)
+        view = swarm.view(1.0)
+        found = np.array([(view.x[3], view.y[3])])
+        assert distances(scenario.arena.outline, found) == 0.0
+    assert found[0] == pytest.approx((0.2, -0.1), abs=0.05)
+    assert view.objects.shape == (0, 2)

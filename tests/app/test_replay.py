@@ -104,8 +104,8 @@ def test_the_first_moment_of_a_replay_has_its_clock_and_all_labels(dashboard):
     assert labels(recorder._serializer) == {
         "/arena/light/label": "light, 100 m north",
         "/rival/light/label": "light, 100 m north",
-        "/arena/title": f"these rules: {world.collected}",
-        "/rival/title": f"Hand-coded: {rival.collected}",
+        "/arena/title": f"these rules: {world.fitness:.0f}",
+        "/rival/title": f"Hand-coded: {rival.fitness:.0f}",
         "/caption": "1:40",
     }
     session.compare_with(None)

@@ -102,7 +102,7 @@ def test_the_same_rules_beside_each_other_do_the_same(session):
     run(session, 20.0)
     other = session.rival.swarm.world
     assert session.world.steps == other.steps >= 9000
-    assert session.world.collected == other.collected > 0
+    assert session.world.fitness == other.fitness > 0
     np.testing.assert_array_equal(session.view().x, session.rival_view().x)
 
 
@@ -112,7 +112,7 @@ def test_the_rival_follows_reset_seed_and_scenario(session):
     run(session, 3.0)
     session.reset(seed=5)
     rival = session.rival.swarm.world
-    assert (rival.steps, rival.seed, rival.collected) == (0, 5, 0)
+    assert (rival.steps, rival.seed, rival.fitness) == (0, 5, 0)
     np.testing.assert_array_equal(rival.state.x, session.world.state.x)
     assert rival.rule_set == load_preset("hand-coded")
     session.set_scenario(load_scenario("scalability-10"))

@@ -14,10 +14,10 @@ from geswarm.evaluation import Evaluation, evaluate_rule_sets
 from geswarm.evolution import (
     Composition,
     EvolutionRun,
-    ForagingFitness,
     InjectionError,
     RunConfig,
     RunConfigError,
+    ScenarioFitness,
     rule_grammar,
 )
 from geswarm.ge import Engine, Mapper, Settings, SettingsError, StoreError, genome_of
@@ -198,18 +198,18 @@ def test_a_stop_within_a_generation_loses_only_that_one(tmp_path):
 def test_fitness_is_the_mean_of_the_evaluations():
     engine = Engine(rule_grammar(), SMALL, seed=2)
     individuals = engine.ask()
-    together = ForagingFitness(QUICK, 2, 3)(1, individuals)
-    alone = [ForagingFitness(QUICK, 2, 3)(1, [one])[0] for one in individuals]
+    together = ScenarioFitness(QUICK, 2, 3)(1, individuals)
+    alone = [ScenarioFitness(QUICK, 2, 3)(1, [one])[0] for one in individuals]
     assert together == alone
 
 
 def test_evaluations_are_paired_and_keyed_by_seed():
     evo8 = load_preset("evo8")
     first, again = evaluate_rule_sets([evo8, evo8], QUICK, runs=5, seed=1)
-    assert first.collected.tolist() == again.collected.tolist()
+    assert first.fitness.tolist() == again.fitness.tolist()
     (other,) = evaluate_rule_sets([evo8], QUICK, runs=60, seed=2)
     (more,) = evaluate_rule_sets([evo8], QUICK, runs=70, seed=2)
-    assert more.collected[:60].tolist() == other.collected.tolist()
+    assert more.fitness[:60].tolist() == other.fitness.tolist()
     (nothing,) = evaluate_rule_sets([RuleSet()], QUICK, runs=2)
     assert nothing.mean == 0.0
 
@@ -365,7 +365,8 @@ def test_a_run_can_be_read_while_it_is_written(tmp_path):
 
 
 def test_notebooks_show_the_figures_of_an_evaluation():
-    evaluation = Evaluation(np.array([1, 2, 6]), np.array([0, 1, 1]))
+    fitness, lost = np.array([1.0, 2.0, 6.0]), np.array([0.0, 1.0, 1.0])
+    evaluation = Evaluation(QUICK.objective, fitness, {"collected": fitness, "lost": lost})
     rows = list(ElementTree.fromstring(evaluation._repr_html_()))
     head, figures = ([cell.text for cell in row] for row in rows)
     assert dict(zip(head, figures, strict=True)) == {

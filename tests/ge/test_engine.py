@@ -68,11 +68,11 @@ def test_call_order(grammar):
         engine.tell([1.0] * len(asked))
 
 
-@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -0.5, None, "x"])
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf"), None, "x"])
 def test_bad_fitness_changes_nothing(grammar, bad):
     engine = Engine(grammar, SMALL)
     asked = engine.ask()
-    with pytest.raises(FitnessError, match="individual 3: expected a finite number >= 0"):
+    with pytest.raises(FitnessError, match="individual 3: expected a finite number, got"):
         engine.tell([1.0, 2.0, 3.0, bad] + [0.0] * 16)
     with pytest.raises(FitnessError, match="expected 20 values, one per asked individual, got 19"):
         engine.tell([1.0] * 19)
@@ -107,6 +107,40 @@ def test_individuals_are_numbered_and_invalid_ones_are_not_asked():
         assert len(engine.population) == 30
         assert all(one.fitness == (one.phenotype is not None) for one in engine.population)
         invalid += record.invalid
+    assert invalid > 0
+
+
+@pytest.mark.parametrize("preset", ["paper", "modern"])
+def test_fitness_may_have_any_sign(grammar, preset):
+    """Where there is only loss, those who lose least are the fittest."""
+    settings = Settings.preset(preset, population=30, generations=12)
+    one, other = Engine(grammar, settings, seed=3), Engine(grammar, settings, seed=3)
+    means = []
+    while not one.finished:
+        asked = one.ask()
+        assert asked == other.ask()
+        losses = [value - 100.0 for value in count_true(1, asked)]
+        record = one.tell(losses)
+        other.tell(losses)
+        assert record.best_so_far == one.best.value < 0
+        means.append(record.mean)
+    assert one.state() == other.state()
+    assert means[-1] > means[0]
+    assert Engine.restore(grammar, settings, 3, one.state()).population == one.population
+
+
+def test_the_invalid_are_worth_no_more_than_the_worst():
+    grammar = Grammar.parse("<s> ::= <s> <s> x | y")
+    engine = Engine(grammar, Settings(population=30, generations=5, mutation=0.5, max_wraps=0), 2)
+    invalid = 0
+    while not engine.finished:
+        losses = {one.key: -5.0 - one.key for one in engine.ask()}
+        known = [one.fitness for one in engine.population if one.phenotype is not None]
+        engine.tell(list(losses.values()))
+        worst = min([*losses.values(), *known])
+        for one in engine.offspring:
+            assert one.fitness == losses.get(one.key, worst)
+            invalid += one.phenotype is None
     assert invalid > 0
 
 

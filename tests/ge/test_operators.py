@@ -94,10 +94,19 @@ def test_roulette_without_any_fitness_is_uniform():
     assert stats.chisquare(counts).pvalue > 1e-4
 
 
-@pytest.mark.parametrize("fitness", [[1, -1], [float("nan"), 1], [1, float("inf")]])
+@pytest.mark.parametrize("fitness", [[float("nan"), 1], [1, float("inf")], [-float("inf"), 1]])
 def test_roulette_refuses_what_is_no_share(fitness):
-    with pytest.raises(ValueError, match=r"fitness\[\d\]: expected a finite number >= 0"):
+    with pytest.raises(ValueError, match=r"fitness\[\d\]: expected a finite number, got"):
         roulette(fitness, 1, rng())
+
+
+def test_roulette_of_losses_counts_from_the_greatest_one():
+    fitness = [-4.0, -1.0, -3.0, -4.0, 2.0]
+    counts = np.bincount(roulette(fitness, 50_000, rng(9)), minlength=5)
+    assert counts[[0, 3]].sum() == 0
+    shares = np.array([3.0, 1.0, 6.0])
+    assert stats.chisquare(counts[[1, 2, 4]], shares / shares.sum() * 50_000).pvalue > 1e-4
+    assert set(roulette([-2.0] * 3, 100, rng(9))) == {0, 1, 2}
 
 
 def test_roulette_of_nobody():
@@ -111,3 +120,11 @@ def test_roulette_never_draws_a_zero_among_others(fitness, seed):
     assert all(0 <= index < len(fitness) for index in drawn)
     if any(fitness):
         assert all(fitness[index] > 0 for index in drawn)
+
+
+@given(fitness=st.lists(st.floats(-1e308, 1e308), min_size=1, max_size=20), seed=seeds)
+def test_roulette_draws_of_any_fitness_and_never_the_worst(fitness, seed):
+    drawn = roulette(fitness, 20, rng(seed))
+    least = min(0.0, *fitness)
+    if max(fitness) > least:
+        assert all(fitness[index] > least for index in drawn)

@@ -44,3 +44,11 @@ def test_codons_have_their_price_under_parsimony():
     twin = individual(2, 100.0, 1, used=9)
     assert ranked([small, twin], 0.0, parsimony=True)[0] is twin
     assert ranked([small, twin], 0.0, parsimony=False)[0] is small
+
+
+def test_codons_cost_losers_too():
+    small, large = individual(0, -100.0, 1, used=10), individual(1, -100.0, 1, used=210)
+    assert ranked([large, small], 0.0, parsimony=True)[0] is small
+    better = individual(2, -100.0 + 150 * CODON_COST * 100, 1, used=210)
+    assert ranked([better, small], 0.0, parsimony=True)[0] is small
+    assert ranked([better, small], 0.0, parsimony=False)[0] is better

@@ -35,8 +35,9 @@ from geswarm.rules import (
 )
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.sim import ScenarioError, load_scenario, parse_scenario
-from geswarm.sim.encoding import encode_scenario
+from geswarm.sim.encoding import scenario_numbers
 from geswarm.sim.scenario_checks import PARAMETERS
+from geswarm.sim.scenario_words import WORDS
 from tests.robustness import mutations
 from tests.strategies import documented_rule_sets
 
@@ -118,7 +119,7 @@ def read_grammar(text):
 def read_scenario(text):
     scenario = parse_scenario(text, "mine")
     assert parse_scenario(scenario.to_yaml(), "mine") == scenario
-    assert np.isfinite(encode_scenario(scenario)).all()
+    assert np.isfinite(list(scenario_numbers(scenario).values())).all()
 
 
 def read_config(text):
@@ -164,6 +165,8 @@ _SCENARIOS = (
     "extends: paper\nrobots: 8\narena: {width: 8.4, length: 4.2}\nzone_miss: 0.02\n",
     "random_walk: [1, 2]\nduration: 10\n",
     PAPER.to_yaml(),
+    load_scenario("aac").to_yaml(),
+    "extends: homing\narena: {walls: [{from: [0, 0], to: [1, 0], thickness: 0.05}]}\n",
 )
 _MESSAGES = ('{"type": "edit", "edit": {"do": "remove_rule", "rule": 0}}', '{"type": "undo"}')
 _NUMBERS = st.floats() | st.integers(-(2**63), 2**63)
@@ -173,7 +176,8 @@ _NUMBERS = st.floats() | st.integers(-(2**63), 2**63)
 def doors():
     """What needs nothing but an input."""
     values_as_yaml = _YAML_VALUES.map(lambda tree: yaml.safe_dump(tree, allow_unicode=True))
-    scenario_trees = mutations.json_objects([*PARAMETERS, "arena", "extends"]).map(yaml.safe_dump)
+    keys = [*PARAMETERS, *WORDS, "arena", "extends"]
+    scenario_trees = mutations.json_objects(keys).map(yaml.safe_dump)
     return (
         Door("rules, YAML", read_rules(".yaml"), (RuleSetError,),
              text_inputs(*map(format_yaml, RULE_SETS)),

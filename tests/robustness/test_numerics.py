@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from geswarm.rules import ControlTable, RuleSet
 from geswarm.sim import CONTROL_STEP, World, evaluate, footbot, load_scenario
-from geswarm.sim.scenario import Scenario, ScenarioError
+from geswarm.sim.scenario import ScenarioError
 from geswarm.sim.scenario_checks import PARAMETERS
 from tests.strategies import any_probabilities, rules
 
@@ -59,7 +59,7 @@ def scenarios(draw):
         },
     }  # fmt: skip
     try:
-        return Scenario(name="any", duration=STEPS * CONTROL_STEP, **values)
+        return PAPER.with_changes(name="any", duration=STEPS * CONTROL_STEP, **values)
     except ScenarioError:
         assume(False)
 
@@ -67,7 +67,8 @@ def scenarios(draw):
 def assert_sound(world):
     """Nothing is lost, nothing is outside, nothing is undefined."""
     seen, scenario = world.state, world.scenario
-    assert seen.picked == seen.collected + seen.lost + seen.carried.sum()
+    dropped = seen.measures["collected"] + seen.measures["lost"]
+    assert seen.measures["picked"] == dropped + seen.carried.sum()
     for name in ("x", "y", "theta", "objects"):
         assert np.isfinite(getattr(seen, name)).all(), name
     assert np.all(np.abs(seen.x) <= scenario.width / 2 - footbot.RADIUS)
@@ -112,12 +113,13 @@ def counts_of_any_batch(scenario, rule_set, seed):
     table = ControlTable.compile(rule_set)
     simulations = [(0, seed, 0, run) for run in range(3)]
     result = evaluate([table], scenario, simulations, workers=2)
-    carried = result.picked - result.collected - result.lost
+    picked, collected, lost = (result.measures[name] for name in ("picked", "collected", "lost"))
+    carried = picked - collected - lost
     assert np.all((carried >= 0) & (carried <= scenario.robots))
-    assert np.all((result.collected >= 0) & (result.lost >= 0))
+    assert np.all((collected >= 0) & (lost >= 0))
     alone = evaluate([table], scenario, simulations[1:2], workers=1)
-    assert alone.picked[0] == result.picked[1]
-    assert alone.collected[0] == result.collected[1]
+    assert alone.measures["picked"][0] == picked[1]
+    assert alone.fitness[0] == collected[1]
 
 
 @given(scenarios(), rule_sets, st.integers(0, 2**63 - 1))

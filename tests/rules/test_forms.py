@@ -169,7 +169,7 @@ def test_files_and_presets_are_found(tmp_path, monkeypatch):
         save_rule_set(rule_set, tmp_path / name)
         assert load_rule_set(str(tmp_path / name)) == rule_set
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.rules", "mine.yaml"]
-    with pytest.raises(RuleSetError, match=r"evo9: neither a file .* nor a preset \(evo8, "):
+    with pytest.raises(RuleSetError, match=r"evo9: neither a file .* nor a preset \(aac, "):
         load_rule_set("evo9")
     (tmp_path / "binary").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(RuleSetError, match="not a text file"):

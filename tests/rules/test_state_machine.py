@@ -113,7 +113,7 @@ def test_transitions_are_counted_as_robots_are_seen_to_take_them(rule_set):
             each.behaviour.astype(int) * 4 + each.internal_states for each in (before, after)
         ]
         np.add.at(seen, tuple(columns), 1)
-        counted = machine.robots_in_states(after.behaviour, after.internal_states)
+        counted = machine.robots_in_states(*world.numbers_in(machine.space))
         assert counted.tolist() == [np.sum(columns[1] == each.column) for each in machine.states]
         before = after
     taken = machine.times_taken(world.decisions)
@@ -122,7 +122,7 @@ def test_transitions_are_counted_as_robots_are_seen_to_take_them(rule_set):
         there = machine.states[source].column, machine.states[target].column
         assert total == seen[there] or (source == target and total <= seen[there])
     dropped = sum(taken[at] for at, entry in enumerate(machine.transitions) if entry.effects)
-    assert dropped == before.collected + before.lost
+    assert dropped == before.measures["collected"] + before.measures["lost"]
     assert np.trace(seen) + taken.sum() >= seen.sum()
 
 

@@ -34,8 +34,8 @@ def test_batch_agrees_with_argos(case):
     table = ControlTable.compile(load_preset(case["rules"]))
     runs = [(0, seed, 0, 0) for seed in range(1, RUNS + 1)]
     result = evaluate([table], scenario_of(case), runs)
-    assert result.collected.mean() == pytest.approx(case["mean"], rel=TOLERANCE)
-    assert result.lost.sum() == case["lost"]
+    assert result.fitness.mean() == pytest.approx(case["mean"], rel=TOLERANCE)
+    assert result.measures["lost"].sum() == case["lost"]
 
 
 @pytest.mark.slow
@@ -47,7 +47,7 @@ def test_world_agrees_with_argos(rules):
     for seed in range(1, RUNS + 1):
         world = World(scenario, load_preset(rules), seed)
         world.step(scenario.steps)
-        collected.append(world.collected)
+        collected.append(world.fitness)
     assert sum(collected) / RUNS == pytest.approx(case["mean"], rel=TOLERANCE)
 
 
@@ -57,9 +57,9 @@ def test_both_ways_of_running_have_the_same_distribution(case, monkeypatch):
     table = ControlTable.compile(load_preset(case["rules"]))
     scenario = scenario_of(case)
     runs = [(0, seed, 0, 0) for seed in range(300)]
-    side_by_side = evaluate([table], scenario, runs).collected
+    side_by_side = evaluate([table], scenario, runs).fitness
     monkeypatch.setattr(batch, "runs_side_by_side", lambda _: False)
-    one_by_one = evaluate([table], scenario, runs).collected
+    one_by_one = evaluate([table], scenario, runs).fitness
     assert stats.ks_2samp(side_by_side, one_by_one).pvalue > 1e-3
     assert stats.ttest_ind(side_by_side, one_by_one).pvalue > 1e-3
     assert side_by_side.mean() == pytest.approx(case["mean"], rel=TOLERANCE)

@@ -25,7 +25,7 @@ SIMULATIONS = [Simulation(k % 2, 7, k // 6, k % 3) for k in range(24)]
 
 
 def counts(result):
-    return np.stack([result.collected, result.lost, result.picked], axis=1)
+    return np.stack([result.measures[name] for name in ("collected", "lost", "picked")], axis=1)
 
 
 @pytest.fixture(scope="module")
@@ -35,9 +35,11 @@ def one_by_one():
 
 def test_results(one_by_one):
     result = evaluate(TABLES, SHORT, SIMULATIONS)
-    assert result.collected.dtype == result.lost.dtype == result.picked.dtype == np.int64
-    assert result.collected.min() > 0
-    assert len(set(result.collected.tolist())) > 5
+    assert list(result.measures) == ["picked", "collected", "lost"]
+    assert {values.dtype for values in result.measures.values()} == {np.dtype(np.float64)}
+    np.testing.assert_array_equal(result.fitness, result.measures["collected"])
+    assert result.fitness.min() > 0
+    assert len(set(result.fitness.tolist())) > 5
     np.testing.assert_array_equal(counts(result), one_by_one)
 
 
@@ -96,8 +98,9 @@ def test_both_ways_of_running_collect_alike(rules, monkeypatch):
     monkeypatch.setattr(batch, "runs_side_by_side", lambda _: False)
     apart = evaluate(TABLES, scenario, simulations)
     for name in ("collected", "picked"):
-        assert stats.ttest_ind(getattr(together, name), getattr(apart, name)).pvalue > 1e-3
-        assert stats.ks_2samp(getattr(together, name), getattr(apart, name)).pvalue > 1e-3
+        one, other = together.measures[name], apart.measures[name]
+        assert stats.ttest_ind(one, other).pvalue > 1e-3
+        assert stats.ks_2samp(one, other).pvalue > 1e-3
 
 
 def test_every_part_of_the_key_counts():
@@ -107,14 +110,15 @@ def test_every_part_of_the_key_counts():
 
 
 def test_nothing_to_do():
-    assert evaluate(TABLES, SHORT, []).collected.shape == (0,)
-    assert evaluate([], SHORT, []).collected.shape == (0,)
+    assert evaluate(TABLES, SHORT, []).fitness.shape == (0,)
+    assert evaluate([], SHORT, []).measures["collected"].shape == (0,)
 
 
 def test_robots_without_rules_only_walk():
     result = evaluate([ControlTable.compile(RuleSet())], SHORT, [(0, 1, 0, 0)])
-    assert result.collected[0] == result.lost[0] == 0
-    assert 0 < result.picked[0] <= SHORT.robots
+    (counted,) = counts(result)
+    assert counted[0] == counted[1] == 0
+    assert 0 < counted[2] <= SHORT.robots
 
 
 def test_stop_ends_it():
@@ -123,7 +127,7 @@ def test_stop_ends_it():
     for workers in (1, 2):
         with pytest.raises(EvaluationStopped):
             evaluate(TABLES, SHORT, SIMULATIONS, workers=workers, stop=stop.is_set)
-    assert evaluate(TABLES, SHORT, SIMULATIONS[:2], stop=lambda: False).picked.shape == (2,)
+    assert evaluate(TABLES, SHORT, SIMULATIONS[:2], stop=lambda: False).fitness.shape == (2,)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +151,10 @@ def test_bad_workers_and_vocabulary():
         FORAGING.preconditions, FORAGING.behaviours[::-1], FORAGING.internal_states, (), "x"
     )
     table = ControlTable(TABLES[0].probabilities, Space(other, (), (), ()))
-    with pytest.raises(ValueError, match=r"tables\[1\]: expected the foraging vocabulary"):
+    with pytest.raises(
+        ValueError,
+        match=r"tables\[1\]: expected the vocabulary of foraging, got one with RANDOM_WALK",
+    ):
         evaluate([TABLES[0], table], SHORT, SIMULATIONS)
 
 
@@ -179,5 +186,4 @@ def test_a_result_does_not_depend_on_what_else_is_evaluated():
     for number, table in enumerate(tables):
         alone = evaluate([table], scenario, [(0, 3, 0, run) for run in range(9)])
         share = slice(9 * number, 9 * number + 9)
-        assert alone.collected.tolist() == together.collected[share].tolist()
-        assert alone.picked.tolist() == together.picked[share].tolist()
+        np.testing.assert_array_equal(counts(alone), counts(together)[share])

@@ -9,24 +9,24 @@ import pytest
 SCRIPT = """
 import numpy as np
 from numba import cuda
-from geswarm.sim.terms.areas import areas
+from geswarm.sim.terms.light import light_level
 
-one = cuda.jit(device=True)(areas.function)
+one = cuda.jit(device=True)(light_level.function)
 
 
 @cuda.jit
 def sense(places, readings):
     at = cuda.grid(1)
     if at < len(places):
-        readings[at] = one(places[at], np.float32(-0.6), np.float32(0.1))
+        readings[at] = one(places[at])
 
 
-places = np.linspace(-2.1, 2.1, 200, dtype=np.float32)
+places = np.linspace(0, 9, 200, dtype=np.float32)
 readings = np.zeros(200, dtype=np.int32)
 sense[4, 64](places, readings)
-expected = [areas.function(y, np.float32(-0.6), np.float32(0.1)) for y in places]
+expected = [light_level.function(place) for place in places]
 assert readings.tolist() == expected
-assert set(expected) == {0, 1, 2}
+assert set(expected) == set(range(8))
 """
 
 

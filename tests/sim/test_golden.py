@@ -30,5 +30,6 @@ def test_histories_are_what_they_were(case, form):
     name, rules = case.rsplit(maxsplit=1)
     scenario = CROWDED if name == "crowded" else load_scenario(name).with_changes(duration=600.0)
     result = evaluate([form(RULES[rules])], scenario, [(0, 5, 1, run) for run in range(6)])
-    found = [getattr(result, name).tolist() for name in ("picked", "collected", "lost")]
+    found = [result.measures[name].tolist() for name in ("picked", "collected", "lost")]
     assert found == GOLDEN[case]
+    assert result.fitness.tolist() == found[1]

@@ -8,11 +8,10 @@ from numba import njit
 
 from geswarm.rules import FORAGING, RuleSet, load_preset
 from geswarm.sim import batch
-from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import single
-from geswarm.sim.program import compile_controllers
 from geswarm.sim.scenario import load_scenario
 from tests.sim import oracle
+from tests.sim.controllers import tables_for
 
 PAPER = load_scenario("paper")
 CROWDED = PAPER.with_changes(
@@ -37,7 +36,7 @@ def distance_to_oracle(group, twin, lane):
 @pytest.mark.parametrize("preset", ["hand-coded", "evo8"])
 @pytest.mark.parametrize("scenario", [PAPER, CROWDED], ids=lambda scenario: scenario.name)
 def test_lanes_follow_the_oracle(scenario, preset):
-    tables = compile_controllers([load_preset(preset)], fails(scenario))
+    tables = tables_for([load_preset(preset)], scenario)
     simulations = np.array([(0, seed, 0, 0) for seed in range(16)])
     group = batch.Group(tables, scenario, simulations)
     ideal = scenario.with_changes(zone_miss=0.0)  # the table misses zones
@@ -58,8 +57,7 @@ def test_lanes_follow_the_oracle(scenario, preset):
 
 
 def test_robots_at_the_very_same_place_part():
-    tables = compile_controllers([RuleSet()], [0.0] * 3)
-    group = batch.Group(tables, PAPER, np.zeros((1, 4), dtype=np.int64))
+    group = batch.Group(tables_for([RuleSet()], PAPER), PAPER, np.zeros((1, 4), dtype=np.int64))
     group.robots["x"][:2, 0], group.robots["y"][:2, 0] = 0.25, 0.5
     group.run(0, 5)
     x, y = group.robots["x"][:, 0], group.robots["y"][:, 0]
@@ -69,8 +67,8 @@ def test_robots_at_the_very_same_place_part():
 
 
 def test_a_target_of_length_zero_is_straight_ahead():
-    tables = compile_controllers([RuleSet()], [0.0] * 3)
-    group = batch.Group(tables, PAPER.with_changes(robots=1), np.zeros((1, 4), dtype=np.int64))
+    alone = PAPER.with_changes(robots=1)
+    group = batch.Group(tables_for([RuleSet()], alone), alone, np.zeros((1, 4), dtype=np.int64))
     robot = group.robots
     robot["x"], robot["y"], robot["cos"], robot["sin"] = 0.0, 0.0, 0.6, 0.8
     robot["walk_x"], robot["walk_y"], robot["walk_until"] = 0.0, 0.0, 1000

@@ -34,7 +34,8 @@ def test_a_crowd_is_the_oracle(rules):
         seen = world.state
         expected = [(robot.x, robot.y) for robot in twin.robots]
         np.testing.assert_allclose(np.stack([seen.x, seen.y], axis=1), expected, atol=1e-4)
-    assert (world.picked, world.collected) == (twin.picked, twin.collected)
+    counted = {"picked": twin.picked, "collected": twin.collected, "lost": twin.lost}
+    assert world.measures == counted
     np.testing.assert_allclose(world.state.objects, twin.objects, atol=1e-6)
 
 
@@ -104,7 +105,7 @@ def test_many_objects_are_found():
         # An object may have been taken by another robot in the same step.
         missed = wanted & ~seen.carried & (gaps <= scenario.grip_reach)
         assert missed.sum() <= takes.sum()
-    assert world.picked > 100
+    assert world.measures["picked"] > 100
     north = scenario.length / 2
     objects = world.state.objects
     assert np.all((objects[:, 1] >= north - scenario.source) & (objects[:, 1] <= north))

@@ -9,11 +9,10 @@ from hypothesis import strategies as st
 
 from geswarm.rules import FORAGING, Rule, RuleSet, load_preset
 from geswarm.sim import batch, footbot
-from geswarm.sim.encoding import fails
-from geswarm.sim.program import compile_controllers
 from geswarm.sim.scenario import load_scenario
 from geswarm.sim.world import World
 from tests.sim import oracle
+from tests.sim.controllers import tables_for
 from tests.strategies import any_probabilities, rules
 
 CROWDED = load_scenario("flexibility-5").with_changes(
@@ -34,7 +33,9 @@ TOLERANCE = 2e-5
 
 def assert_same(world, twin):
     seen = world.state
-    assert (seen.picked, seen.collected, seen.lost) == (twin.picked, twin.collected, twin.lost)
+    counted = {"picked": twin.picked, "collected": twin.collected, "lost": twin.lost}
+    assert seen.measures == counted
+    assert seen.fitness == twin.collected
     for i, robot in enumerate(twin.robots):
         assert (seen.x[i], seen.y[i]) == pytest.approx((robot.x, robot.y), abs=TOLERANCE)
         assert abs(oracle.wrapped(seen.theta[i] - robot.theta)) < 10 * TOLERANCE
@@ -78,7 +79,7 @@ def test_world_is_the_oracle(preset):
 @two_rule_sets
 def test_world_is_the_oracle_in_a_crowd(preset):
     world = run_both(CROWDED, load_preset(preset), seed=11, steps=400, every=4)
-    assert world.collected > 0
+    assert world.fitness > 0
 
 
 @given(rule_sets, st.integers(0, 2**63 - 1))
@@ -92,9 +93,9 @@ def test_swarms_and_lanes_are_one_source(preset):
     """By table, robots side by side do exactly what simulations side by side do."""
     for scenario in (CROWDED, load_scenario("scalability-20"), load_scenario("paper")):
         scenario = scenario.with_changes(duration=100.0)
-        tables = compile_controllers([load_preset(preset)], fails(scenario))
+        tables = tables_for([load_preset(preset)], scenario)
         simulations = np.array([(0, seed, 2, 1) for seed in range(5)])
-        lanes, swarm = (np.zeros((5, 3), dtype=np.int64) for _ in range(2))
+        lanes, swarm = (np.zeros((5, 3)) for _ in range(2))
         batch._run_side_by_side(tables, scenario, simulations, lanes, None)
         batch._run_one_by_one(tables, scenario, simulations, swarm, None)
         assert lanes.sum() > 0
@@ -109,7 +110,8 @@ def test_objects_and_walls(rule_set, seed):
     for _ in range(8):
         world.step(50)
         seen = world.state
-        assert seen.picked == seen.collected + seen.lost + seen.carried.sum()
+        dropped = seen.measures["collected"] + seen.measures["lost"]
+        assert seen.measures["picked"] == dropped + seen.carried.sum()
         assert np.all(np.abs(seen.x) <= reach_x)
         assert np.all(np.abs(seen.y) <= reach_y)
         assert np.all(np.isfinite(seen.theta))

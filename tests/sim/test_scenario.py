@@ -5,6 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from geswarm.sim.arena import Arena, Band, Box, Light, Patch
+from geswarm.sim.objective import Objective
 from geswarm.sim.scenario import (
     Scenario,
     ScenarioError,
@@ -24,10 +26,26 @@ def messages(text):
 
 
 def test_paper_is_as_reported():
+    nest = Band("south", 1.5)
+    arena = Arena(
+        outline=Box(0.0, 0.0, 4.2, 4.2),
+        patches=(Patch(nest, "white", "nest"), Patch(Band("north", 2.0), "black", "source")),
+        lights=(Light(y=100.0, beyond=True),),
+        start=nest,
+    )
     assert Scenario(
-        "paper", 4, 5, 5000.0, 4.2, 4.2, 1.5, 2.0, 100.0, 0.08, 0.12, 0.10, (5.0, 15.0),
-        0.10, 2.0, 0.10, 0.5, 1.0,
+        name="paper", robots=4, objects=5, duration=5000.0, arena=arena, zone_miss=0.08,
+        grip_reach=0.12, object_margin=0.10, random_walk=(5.0, 15.0), max_speed=0.10,
+        turn_gain=2.0, proximity_range=0.10, rab_range=0.5, avoidance_gain=1.0,
+        preconditions=("ON_NEST", "ON_SOURCE", "HAS_OBJECT"),
+        behaviours=("PHOTOTAXIS", "ANTI-PHOTOTAXIS", "RANDOM_WALK"),
+        registers=("WANT_OBJECT", "DROP_OBJECT"), initial_behaviour="RANDOM_WALK",
+        measures=("picked", "collected", "lost"),
+        objective=Objective("collected", unit="objects"), reference="hand-coded",
     ) == PAPER  # fmt: skip
+    assert (PAPER.width, PAPER.length) == (4.2, 4.2)
+    assert (PAPER.nest, PAPER.source, PAPER.light) == (1.5, 2.0, 100.0)
+    assert PAPER.arena.banded
     assert PAPER.steps == 50_000
     assert PAPER.robots / PAPER.width / PAPER.length == pytest.approx(0.23, abs=0.005)
 
@@ -35,9 +53,13 @@ def test_paper_is_as_reported():
 def test_names():
     assert scenario_names() == [
         "paper",
+        "aac",
+        "aggregation",
         *(f"flexibility-{n}" for n in (5, 10, 20)),
+        "homing",
         "ideal-sensing",
         *(f"scalability-{n}" for n in (5, 10, 20)),
+        "xor",
     ]
     assert [load_scenario(name).name for name in scenario_names()] == scenario_names()
 

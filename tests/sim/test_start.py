@@ -8,11 +8,10 @@ from scipy.spatial import cKDTree
 
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import World, batch, footbot, load_scenario
-from geswarm.sim.encoding import fails
-from geswarm.sim.program import compile_controllers
 from geswarm.sim.scenario import ScenarioError
 from geswarm.sim.scenario_checks import robots_in_nest
 from tests.sim import oracle
+from tests.sim.controllers import tables_for
 
 PAPER = load_scenario("paper")
 EVO8 = load_preset("evo8")
@@ -91,7 +90,7 @@ def test_a_large_swarm_that_is_dense():
 def test_lanes_start_apart():
     scenario = PAPER.with_changes(robots=24, width=1.5, nest=0.6)
     assert robots_in_nest(1.5, 4.2, 0.6) == 32
-    tables = compile_controllers([EVO8], fails(scenario))
+    tables = tables_for([EVO8], scenario)
     group = batch.Group(tables, scenario, np.array([(0, seed, 0, 0) for seed in range(64)]))
     for lane in range(64):
         x, y = group.robots["x"][:, lane], group.robots["y"][:, lane]

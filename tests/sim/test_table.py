@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, Space, StateChange
-from geswarm.sim.program import compile_controllers
-from geswarm.sim.terms.foraging import FORAGING as PARTS
+from geswarm.sim import load_scenario, parts_of
+from geswarm.sim.tables import compile_controllers
 from tests.strategies import any_probabilities, plain_rule_sets
 
+PARTS = parts_of(load_scenario("paper"))
 misses = st.sampled_from([0.0, 0.08, 1.0])
 
 
@@ -34,7 +35,7 @@ def drawn(tables, number, code, behaviour, state):
 @given(st.lists(plain_rule_sets(probabilities=any_probabilities), min_size=1, max_size=3), misses)
 @settings(max_examples=30, deadline=None)
 def test_outcomes_have_the_probabilities_of_the_rules(rule_sets, zone_miss):
-    tables = compile_controllers(rule_sets, [zone_miss, 0.0, 0.0])
+    tables = compile_controllers(rule_sets, [zone_miss, 0.0, 0.0], PARTS).tables
     for number, rule_set in enumerate(rule_sets):
         plain = ControlTable.compile(rule_set)  # held against enumeration in tests/rules
         for want, carried, zones, behaviour in itertools.product(
@@ -55,8 +56,9 @@ def test_outcomes_have_the_probabilities_of_the_rules(rule_sets, zone_miss):
 def test_rules_and_their_dense_table_draw_alike(rule_sets, zone_miss):
     """To the last bit: published results were drawn from the dense one."""
     fails = [zone_miss, 0.0, 0.0]
-    by_rules = compile_controllers(rule_sets, fails)
-    by_table = compile_controllers([ControlTable.compile(each) for each in rule_sets], fails)
+    by_rules = compile_controllers(rule_sets, fails, PARTS).tables
+    dense = [ControlTable.compile(each) for each in rule_sets]
+    by_table = compile_controllers(dense, fails, PARTS).tables
     for number, code, behaviour in itertools.product(range(len(rule_sets)), range(16), range(3)):
         state = code >> 3
         rows = []
@@ -75,8 +77,8 @@ def test_a_table_does_not_depend_on_what_else_is_compiled():
     rule_sets = [
         RuleSet((Rule(actions=(StateChange(p, "WANT_OBJECT", False),)),)) for p in (0.1, 1)
     ]
-    both = compile_controllers(rule_sets, [0.08, 0, 0])
-    alone = compile_controllers(rule_sets[1:], [0.08, 0, 0])
+    both = compile_controllers(rule_sets, [0.08, 0, 0], PARTS).tables
+    alone = compile_controllers(rule_sets[1:], [0.08, 0, 0], PARTS).tables
     for code, behaviour in itertools.product(range(16), range(3)):
         one, other = drawn(both, 1, code, behaviour, 1), drawn(alone, 0, code, behaviour, 1)
         assert np.array_equal(one, other)
@@ -84,7 +86,8 @@ def test_a_table_does_not_depend_on_what_else_is_compiled():
 
 def test_rules_may_be_many():
     rule = Rule(actions=(StateChange(0.01, "WANT_OBJECT", False),))
-    tables = compile_controllers([RuleSet(), RuleSet((rule,) * 100)], [0.0, 0.0, 0.0])
+    rule_sets = [RuleSet(), RuleSet((rule,) * 100)]
+    tables = compile_controllers(rule_sets, [0.0, 0.0, 0.0], PARTS).tables
     assert drawn(tables, 1, 8, 2, 1)[2, 1, 0] == pytest.approx(0.99**100, abs=1e-6)
 
 

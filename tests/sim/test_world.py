@@ -41,7 +41,8 @@ def test_start():
     assert np.all(seen.last_rule == -1)
     gaps = np.hypot(seen.x[:, None] - seen.x, seen.y[:, None] - seen.y)[np.triu_indices(20, 1)]
     assert gaps.min() >= 0.17
-    assert (world.time, world.steps, world.picked, world.collected, world.lost) == (0,) * 5
+    assert (world.time, world.steps, world.fitness) == (0,) * 3
+    assert world.measures == {"picked": 0, "collected": 0, "lost": 0}
 
 
 def test_same_seed_same_run():

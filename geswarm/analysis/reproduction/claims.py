@@ -117,7 +117,7 @@ def _evolution(results: Results) -> list[Claim]:
     """The claims of section 3.2.1 about the ten runs."""
     plan, number = results.plan, len(results.evolved)
     found = results.by_rules
-    least = [int(found[name].collected.min()) for name in results.evolved]
+    least = [int(found[name].fitness.min()) for name in results.evolved]
     functional = sum(one > 0 for one in least)
     means = [found[name].mean for name in results.evolved]
     contests = against_hand_coded(results)[:-1]

@@ -221,9 +221,7 @@ def _agreement_section(results: Results) -> str:
     for case, there in argos().items():
         here = results.agreement[case]
         difference = (here.mean - there.mean) / there.mean
-        error = math.sqrt(
-            sum(one.collected.var(ddof=1) / one.collected.size for one in (here, there))
-        )
+        error = math.sqrt(sum(one.fitness.var(ddof=1) / one.fitness.size for one in (here, there)))
         reach = 1.96 * error / there.mean
         differences.append(difference)
         figures = [f"{one.mean:.1f} ± {one.summary()['sd']:.1f}" for one in (there, here)]

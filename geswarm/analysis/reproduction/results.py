@@ -8,12 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from geswarm.analysis.cases import Case, Samples
 from geswarm.analysis.reproduction.plan import Plan
 from geswarm.evaluation import Evaluation
 from geswarm.ge import GenerationRecord
 from geswarm.rules import RuleSet
+from geswarm.sim import load_scenario
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,15 @@ def best_of(samples: Samples, evolved: Sequence[str]) -> str:
     return max(evolved, key=lambda name: means[name])
 
 
-_COLUMNS = ("rules", "scenario", "robots", "zone_miss", "run", "collected", "lost")
+_COUNTED = ("collected", "lost")
+_COLUMNS = ("rules", "scenario", "robots", "zone_miss", "run", *_COUNTED)
+
+
+def foraged(collected: npt.ArrayLike, lost: npt.ArrayLike) -> Evaluation:
+    """What robots that forage brought home and lost, run by run."""
+    counts = (np.asarray(values, dtype=np.float64) for values in (collected, lost))
+    measures = dict(zip(_COUNTED, counts, strict=True))
+    return Evaluation(load_scenario("paper").objective, measures["collected"], measures)
 
 
 def format_samples(samples: Samples) -> str:
@@ -72,7 +82,7 @@ def format_samples(samples: Samples) -> str:
         for case, evaluation in samples.items()
         for scenario in [case.scenario]
         for run, counts in enumerate(
-            zip(evaluation.collected.tolist(), evaluation.lost.tolist(), strict=True)
+            zip(*(evaluation.measures[name].astype(int) for name in _COUNTED), strict=True)
         )
     ]
     return format_csv(_COLUMNS, rows)
@@ -92,7 +102,7 @@ def parse_samples(text: str, cases: Sequence[Case], runs: int) -> Samples:
     counts = [line.rsplit(",", 2)[1:] for line in text.splitlines()[1:]]
     numbers = np.array(counts, dtype=np.int64).reshape(len(cases), runs, 2)
     samples = {
-        case: Evaluation(of_case[:, 0], of_case[:, 1])
+        case: foraged(of_case[:, 0], of_case[:, 1])
         for case, of_case in zip(cases, numbers, strict=True)
     }
     if format_samples(samples) != text:

@@ -39,7 +39,7 @@ class Scaling:
 def scaling(samples: Samples, rules: str) -> Scaling:
     """Fit what a rule set collected with 5, 10 and 20 robots."""
     found = {case.scenario.robots: samples[case] for case in samples if case.rules == rules}
-    groups = [found[size].collected for size in SWARM_SIZES]
+    groups = [found[size].fitness for size in SWARM_SIZES]
     sizes = np.repeat(SWARM_SIZES, [group.size for group in groups])
     line = stats.linregress(sizes, np.concatenate(groups))
     intercept = round(line.intercept, 9)  # 0.75 may be a bit less with another version of SciPy

@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 from geswarm.analysis.cases import Case, Samples
-from geswarm.evaluation import Evaluation
+from geswarm.analysis.reproduction.results import foraged
 from geswarm.sim import Scenario, load_scenario
 
 HAND_CODED, EVO_8 = "hand-coded", "EVO 8"
@@ -79,7 +79,7 @@ def argos() -> Samples:
         if "zone_miss" in entry:
             scenario = with_zone_miss(entry["scenario"], entry["zone_miss"])
         collected = np.array(entry["collected"])
-        samples[Case(entry["rules"], scenario)] = Evaluation(collected, np.zeros_like(collected))
+        samples[Case(entry["rules"], scenario)] = foraged(collected, np.zeros_like(collected))
     return samples
 
 

@@ -1,9 +1,9 @@
-"""Source of what robots do: behaviours that start afresh, effects, motion, measures."""
+"""Source of what robots do: behaviours that start afresh, effects, motion."""
 
 from __future__ import annotations
 
-from geswarm.sim.assembly.source import Source
-from geswarm.sim.kernels.single import I
+from geswarm.sim.assembly import ground
+from geswarm.sim.assembly.source import Source, plus, zero
 from geswarm.sim.terms.component import Behaviour, Component, Effect, Measure, Update
 from geswarm.sim.terms.parts import of_object
 
@@ -29,12 +29,14 @@ def start_afresh(source: Source) -> None:
             continue
         source(f"# {behaviour.name} starts afresh.\nsome = I(0)")
         with source.lanes():
+            ground.prelude(source, behaviour.again)
             flag = "work.restarts[lane]"
             if behaviour.again:
                 flag = f"I({flag} | {_call(source, behaviour.again, behaviour)})"
             source(f"happens = I(I({_which(source)} == I({code})) & {flag})")
             source("work.happens[lane] = happens\nsome = I(some | happens)")
         with source.inside("if some:"), source.lanes():
+            ground.prelude(source, behaviour.start)
             source("happens = work.happens[lane]")
             _update(source, behaviour.start, behaviour)
 
@@ -56,6 +58,7 @@ def _drawn_call(source: Source, update: Update, behaviour: Behaviour | None = No
         source("low, high = robot.key_low[lane], robot.key_high[lane]")
     for name in update.draws:
         source(f"bits_{name} = draw_bits(low, high, step, {source.parts.purpose(update, name)})")
+    ground.fresh_place(source, update)
     return source.call(update, **local)
 
 
@@ -67,6 +70,7 @@ def effects(source: Source) -> None:
             _effect_on_nearest(source, effect)
         else:
             with source.lanes():
+                ground.prelude(source, effect, effect.then, *_counted_at(source, effect))
                 source(f"happens = {_exists(source, source.call(effect))}")
                 _measures(source, effect)
                 if effect.then:
@@ -88,13 +92,12 @@ def _effect_on_nearest(source: Source, effect: Effect) -> None:
     reach = source.number(effect.nearest)
     source("some = I(0)")
     with source.lanes():
+        ground.prelude(source, effect)
         source(f"happens = {_exists(source, source.call(effect))}")
         if source.layout.swarm:
-            sides = ", ".join(source.number(f"objects_{side}") for side in _SIDES)
+            sides = sides_of_objects(source)
             inside = f"is_near(robot.x[lane], robot.y[lane], {reach}, {sides})"
             source(f"happens = I(happens & {inside})\nsome = I(some | happens)")
-        else:
-            source("work.nearest[lane] = FAR")
         source("work.happens[lane] = happens")
     if not source.layout.swarm:
         _find_nearest(source, reach)
@@ -119,13 +122,25 @@ def _effect_on_nearest(source: Source, effect: Effect) -> None:
 _SIDES = ("west", "south", "east", "north")
 
 
-def _find_nearest(source: Source, reach: str) -> None:
-    """How near the nearest object is in each lane, and whether it is within reach."""
+def sides_of_objects(source: Source) -> str:
+    """Names of the sides of the box in which objects lie."""
+    return ", ".join(source.number(f"objects_{side}") for side in _SIDES)
+
+
+def distance_to_objects(source: Source) -> None:
+    """How near the nearest object is in each lane, squared: `work.nearest`."""
+    with source.lanes():
+        source("work.nearest[lane] = FAR")
     with source.inside("for o in range(len(objects)):"):
         source("item = objects[o]")
         with source.lanes():
             source("d2 = distance2(item, robot, lane)")
             source("work.nearest[lane] = d2 if d2 < work.nearest[lane] else work.nearest[lane]")
+
+
+def _find_nearest(source: Source, reach: str) -> None:
+    """Whether the nearest object is within reach in each lane."""
+    distance_to_objects(source)
     with source.lanes():
         source(f"happens = I(work.happens[lane] & I(work.nearest[lane] <= {reach} * {reach}))")
         source("work.happens[lane] = happens\nsome = I(some | happens)")
@@ -134,6 +149,7 @@ def _find_nearest(source: Source, reach: str) -> None:
 def _take(source: Source, effect: Effect, update: Update) -> None:
     """The effect on object o, in one lane."""
     source("happens = I(1)")
+    ground.prelude(source, update, *_counted_at(source, effect))
     _measures(source, effect)
     places = []
     moves = any(of_object(name) for name in update.writes)
@@ -145,7 +161,7 @@ def _take(source: Source, effect: Effect, update: Update) -> None:
             places.append(
                 f"objects[o, {at[1]}]" if source.layout.swarm else f"objects[o].{at[0]}[lane]"
             )
-    sides = ", ".join(f"objects_{side}" for side in _SIDES)
+    sides = sides_of_objects(source) if source.layout.swarm else ""
     if source.layout.swarm and moves:
         source(f"remove_object(objects, grid, o, {sides})")
     call = _drawn_call(source, update)
@@ -154,19 +170,22 @@ def _take(source: Source, effect: Effect, update: Update) -> None:
         source(f"insert_object(objects, grid, o, {sides})")
 
 
-def _measures(source: Source, at: Effect | str) -> None:
-    for measure in source.parts.measures:
-        if measure.at == at:
-            _count(source, measure, "happens != I(0)")
+def _measures(source: Source, at: Effect) -> None:
+    for measure in _counted_at(source, at):
+        count(source, measure, "happens != I(0)")
 
 
-def _count(source: Source, measure: Measure, where: str | None) -> None:
-    whole = source.parts.own_fields[measure.name] is I
+def _counted_at(source: Source, at: Effect) -> list[Measure]:
+    return [each for each in source.parts.measures if isinstance(each, Measure) and each.at is at]
+
+
+def count(source: Source, measure: Measure, where: str | None) -> None:
+    """Add what a measure counts for the robot of the lane, where it is to be counted."""
+    kind = source.parts.own_fields[measure.name]
     value = source.call(measure)
     if where:
-        value = f"({value} if {where} else {'I(0)' if whole else 'ZERO'})"
-    total = f"robot.{measure.name}[lane] + {value}"
-    source(f"robot.{measure.name}[lane] = {f'I({total})' if whole else total}")
+        value = f"({value} if {where} else {zero(kind)})"
+    source(f"robot.{measure.name}[lane] = {plus(kind, f'robot.{measure.name}[lane]', value)}")
 
 
 def move(source: Source) -> None:
@@ -174,6 +193,8 @@ def move(source: Source) -> None:
     source("# Move: the behaviour's target and what steers all of them, by the wheels.")
     paced = any(behaviour.paced for behaviour in source.parts.behaviours)
     with source.lanes():
+        ground.remember(source)
+        ground.prelude(source, *source.parts.behaviours, *source.parts.steering)
         source(f"behaviour = {_which(source)}")
         for code, behaviour in enumerate(source.parts.behaviours):
             results = f"to_x_{code}, to_y_{code}" + (f", pace_{code}" if behaviour.paced else "")
@@ -213,33 +234,3 @@ def _drive(source: Source, paced: bool) -> None:
             source(f"{place}, {low} = advance_exactly({place}, {low}, way, {part})")
         else:
             source(f"{place} = fma(way, {part}, {place})")
-
-
-def measure_steps(source: Source) -> None:
-    """What is counted after each step."""
-    _measure(source, "step")
-
-
-def measure_end(source: Source) -> None:
-    """What is counted at the end; again after each call, the last one counts."""
-    _measure(source, "end")
-
-
-def _measure(source: Source, at: str) -> None:
-    counted = [measure for measure in source.parts.measures if measure.at == at]
-    if not counted:
-        return
-    with source.inside("for i in range(len(robots)):"):
-        source("robot = robots[i]")
-        with source.lanes():
-            for measure in counted:
-                if at == "end":
-                    source(f"robot.{measure.name}[lane] = {zero_of(source, measure)}")
-                _count(
-                    source, measure, "robot.exists[lane] != I(0)" if source.layout.swarm else None
-                )
-
-
-def zero_of(source: Source, measure: Measure) -> str:
-    """A zero of a measure's kind."""
-    return "I(0)" if source.parts.own_fields[measure.name] is I else "ZERO"

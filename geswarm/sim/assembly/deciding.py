@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from geswarm.sim.assembly import acting, ground
 from geswarm.sim.assembly.source import Source
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
+from geswarm.sim.terms.component import Sensor
 
 
 def decide(source: Source) -> None:
     """Sense and decide: the robot's behaviour and registers, and whether it starts afresh."""
+    if any("object_near" in sensor.needs for sensor in source.parts.sensors):
+        _look_for_objects(source)
     if source.layout.rules:
         _sense(source)
         _interpret(source)
@@ -16,6 +20,32 @@ def decide(source: Source) -> None:
         _draw_from_table(source)
     if source.parts.arguments:
         _look_up_arguments(source)
+
+
+def _look_for_objects(source: Source) -> None:
+    """Whether an object is near each robot of the block: `object_near`."""
+    source("# Whether an object is in sight.")
+    reach = source.number("object_range")
+    if source.layout.swarm:
+        sides = acting.sides_of_objects(source)
+        with source.inside("for lane in range(LANES):"):
+            source(
+                f"o = nearest_object(objects, grid, robot.x[lane], robot.y[lane], {reach}, {sides})"
+            )
+            source("work.object_near[lane] = I(o >= 0)")
+        return
+    acting.distance_to_objects(source)
+    with source.lanes():
+        source(f"work.object_near[lane] = I(work.nearest[lane] <= {reach} * {reach})")
+
+
+def _read(source: Source, sensor: Sensor) -> None:
+    """A reading; of terms that are not GESwarm's own, kept in its range whatever they return."""
+    now = f"{sensor.name}_now"
+    source(f"{now} = {source.call(sensor)}")
+    if sensor.module and not sensor.module.startswith("geswarm."):
+        source(f"{now} = I({now})\n{now} = {now} if {now} > I(0) else I(0)")
+        source(f"{now} = {now} if {now} < I({sensor.values - 1}) else I({sensor.values - 1})")
 
 
 def _code(source: Source, readings: list[str]) -> str:
@@ -30,8 +60,9 @@ def _code(source: Source, readings: list[str]) -> str:
 def _draw_from_table(source: Source) -> None:
     source("# Sense: where the situation's class stands in the control table.")
     with source.lanes():
+        ground.prelude(source, *source.parts.sensors)
         for sensor in source.parts.sensors:
-            source(f"{sensor.name}_now = {source.call(sensor)}")
+            _read(source, sensor)
         code = _code(source, [f"{sensor.name}_now" for sensor in source.parts.sensors])
         source(f"work.place[lane] = U({code} + group.codes[lane])")
         source("work.row[lane] = U(U(robot.behaviour[lane]) + group.rows[lane])")
@@ -64,6 +95,20 @@ def _draw_from_table(source: Source) -> None:
         if source.parts.registers:
             source("clears, sets = I(I(outcome >> I(6)) & I(255)), I(I(outcome >> I(14)) & I(255))")
             source("robot.state[lane] = I(I(robot.state[lane] & I(~clears)) | sets)")
+        if source.parts.counter is not None:
+            source("added = I(I(I(outcome >> I(22)) & I(15)) - I(8))")
+            source("least, most = I(I(outcome >> I(26)) & I(7)), I(I(outcome >> I(29)) & I(7))")
+            source(f"robot.state[lane] = {_counted(source)}")
+
+
+def _counted(source: Source) -> str:
+    """The registers with the counter as it is after `added`, from `least` to `most`."""
+    assert source.parts.counter is not None
+    shift = source.parts.shifts[source.parts.counter.name]
+    source(f"counter = I(I(I(robot.state[lane] >> I({shift})) & I(7)) + added)")
+    source("counter = counter if counter > least else least")
+    source("counter = counter if counter < most else most")
+    return f"I(I(robot.state[lane] & I({~(7 << shift)})) | I(counter << I({shift})))"
 
 
 def _sense(source: Source) -> None:
@@ -74,9 +119,10 @@ def _sense(source: Source) -> None:
         source(f"may_miss_{sensor.name} = misses[{number}].possible")
     with source.lanes():
         source("low, high = robot.key_low[lane], robot.key_high[lane]")
+        ground.prelude(source, *source.parts.sensors)
         for sensor in source.parts.sensors:
             now = f"{sensor.name}_now"
-            source(f"{now} = {source.call(sensor)}")
+            _read(source, sensor)
             if sensor.fails:
                 purpose = source.parts.purpose(sensor, sensor.fails)
                 source(f"drawn = draw_bits(low, high, step, {purpose})")
@@ -126,12 +172,16 @@ def _act(source: Source) -> None:
     source("action = actions[a]\nfired = I(0)")
     source("threshold, possible, target = action.threshold, action.possible, action.target")
     source("keeps, sets, afresh = I(~action.clears), action.sets, action.restarts")
+    if source.parts.counter is not None:
+        source("added, least, most = action.added, action.least, action.most")
     with source.lanes():
         source("low, high = robot.key_low[lane], robot.key_high[lane]")
         source("drawn = draw_bits(low, high, step, FIRST_ACTION + a)")
         source("happens = I(I(work.active[lane] & possible) & I(drawn <= threshold))")
         source("fired = I(fired + happens)\nwork.fired[lane] = I(work.fired[lane] | happens)")
         source.set_field("state", "I(I(robot.state[lane] & keeps) | sets)")
+        if source.parts.counter is not None:
+            source.set_field("state", _counted(source))
         source("happens = I(happens & I(I(target >= I(0)) & I(robot.behaviour[lane] != target)))")
         source.set_field("behaviour", "target")
         source("work.restarts[lane] = afresh if happens != I(0) else work.restarts[lane]")
@@ -141,7 +191,7 @@ def _act(source: Source) -> None:
 def _count_decisions(source: Source) -> None:
     """How often robots came from each situation to each outcome."""
     source("# Count from which situation they came to which outcome.")
-    outcomes = 2 * len(source.parts.behaviours) * source.parts.states
+    outcomes = 2 * source.parts.most_instances * source.parts.states
     with source.inside("if len(decisions):"):
         with source.lanes():
             source("after = I(I(robot.behaviour[lane] * I(STATES)) + robot.state[lane])")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from geswarm.sim.assembly import acting, deciding, meeting
+from geswarm.sim.assembly import acting, deciding, measuring, meeting
 from geswarm.sim.assembly.loading import load
 from geswarm.sim.assembly.source import Layout, Source
 from geswarm.sim.terms.component import Component
@@ -15,6 +15,7 @@ from geswarm.sim.terms.parts import Parts
 _IMPORTS = """\
 import numpy as np
 
+from geswarm.sim.kernels import geometry
 from geswarm.sim.kernels.draws import FIRST_ACTION, OUTCOME, draw_bits
 from geswarm.sim.kernels.jit import kernel
 from geswarm.sim.kernels.motion import {motion}
@@ -94,15 +95,16 @@ def arguments(parts: Parts, layout: Layout) -> tuple[str, ...]:
 
 def component_modules(parts: Parts) -> tuple[str, ...]:
     """The modules in which the components are written."""
-    return tuple(sorted({each.module for each in _called(parts)}))
+    return tuple(sorted({each.module for each in _called(parts) if each.module}))
 
 
 def _called(parts: Parts) -> tuple[Component, ...]:
-    return (*parts.components, *parts.needed_sums)
+    return tuple(each for each in (*parts.components, *parts.needed_sums) if each.function)
 
 
 def _imports(parts: Parts, layout: Layout) -> str:
-    turn = ("advance_exactly, push_apart, turn_far, wheels", "push_apart, turn, wheels")
+    push = "push_apart" if layout.swarm else "pushed_apart"
+    turn = (f"advance_exactly, {push}, turn_far, wheels", f"{push}, turn, wheels")
     search = _SEARCH[layout.swarm]
     lines = _IMPORTS.format(motion=turn[0 if layout.wide else 1], search=search)
     modules = component_modules(parts)
@@ -112,7 +114,7 @@ def _imports(parts: Parts, layout: Layout) -> str:
 def _constants(parts: Parts, layout: Layout) -> str:
     lines = [f"{each.name} = {each.module}.{each.name}.inlined" for each in _called(parts)]
     if layout.rules:
-        lines += [f"BEHAVIOURS = {len(parts.behaviours)}", f"STATES = {parts.states}"]
+        lines += [f"BEHAVIOURS = {parts.most_instances}", f"STATES = {parts.states}"]
     return "\n" + "\n".join(lines)
 
 
@@ -130,6 +132,6 @@ def _steps(source: Source) -> None:
             acting.effects(source)
             acting.move(source)
         meeting.collide(source)
-        acting.measure_steps(source)
-    acting.measure_end(source)
+        measuring.measures(source, "step")
+    measuring.measures(source, "end")
     source("return steps")

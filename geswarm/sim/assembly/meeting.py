@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geswarm.sim.assembly import ground
 from geswarm.sim.assembly.source import Source, zero
 from geswarm.sim.kernels.single import I
 from geswarm.sim.terms.component import OF_A_PAIR, Sum
@@ -47,11 +48,14 @@ def _all_pairs(source: Source) -> None:
             source("work.dx[lane], work.dy[lane], work.d2[lane] = dx, dy, d2")
             source("work.per_d[lane] = inverse_root(d2)")
         # Each sum has a loop of its own: with more arrays in one LLVM gives up, and says nothing.
-        for one in source.parts.needed_sums:
+        counts = [one for one in source.parts.needed_sums if one.form == "count"]
+        others = [[one] for one in source.parts.needed_sums if one.form != "count"]
+        for together in ([counts] if counts else []) + others:
             with source.lanes():
-                _of_the_pair(source, one)
-                _weights(source, one, ("robot", "other"), ("lane", "lane"))
-                _add(source, one, ("robot", "other"), ("lane", "lane"))
+                for one in together:
+                    _of_the_pair(source, one)
+                    _weights(source, one, ("robot", "other"), ("lane", "lane"))
+                    _add(source, one, ("robot", "other"), ("lane", "lane"))
 
 
 def _listed_pairs(source: Source) -> None:
@@ -122,8 +126,23 @@ def _add(source: Source, one: Sum, robots: tuple[str, str], lanes: tuple[str, st
                 source(f"{at} = {at} + {weight}")
 
 
+def _push_apart_in_lanes(source: Source) -> None:
+    """One pair in all lanes, of which few touch; as `push_apart` does in each of them."""
+    source("robot, other, some = robots[i], robots[j], I(0)")
+    with source.lanes():
+        source("dx, dy = robot.x[lane] - other.x[lane], robot.y[lane] - other.y[lane]")
+        source("d2 = fma(dx, dx, dy * dy)\nwork.d2[lane] = d2")
+        source("some = I(some | I(d2 < TWO * TWO * radius * radius))")
+    with source.inside("if some:"), source.lanes():
+        source("dx, dy = robot.x[lane] - other.x[lane], robot.y[lane] - other.y[lane]")
+        source("push_x, push_y = pushed_apart(dx, dy, work.d2[lane], radius)")
+        for along in "xy":
+            source(f"robot.{along}[lane] = robot.{along}[lane] + push_{along}")
+            source(f"other.{along}[lane] = other.{along}[lane] - push_{along}")
+
+
 def collide(source: Source) -> None:
-    """Overlapping pairs are pushed apart, pair after pair; then all are kept inside the walls."""
+    """Overlapping pairs are pushed apart, pair after pair; then all are kept off the walls."""
     source("# Bodies do not overlap.")
     if source.layout.swarm:
         with source.inside("if touching:"), source.inside("for at in range(grid.listed[0]):"):
@@ -135,13 +154,11 @@ def collide(source: Source) -> None:
             source("touching = I(touching | work.touch[lane])")
         with (
             source.inside("if touching:"),
-            source.lanes(),
-            source.inside("if work.touch[lane]:"),
             source.inside("for i in range(len(robots)):"),
             source.inside("for j in range(i + 1, len(robots)):"),
         ):
-            source("push_apart(robots[i], lane, robots[j], lane, radius)")
+            _push_apart_in_lanes(source)
     with source.inside("for i in range(len(robots)):"):
         source("robot = robots[i]")
         with source.lanes():
-            source(f"robot.x[lane], robot.y[lane] = {source.call(source.parts.bounds)}")
+            ground.keep_inside(source)

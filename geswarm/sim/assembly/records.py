@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.sim.assembly import ground
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.kernels.single import F, I, U
 from geswarm.sim.kernels.state import LANES
@@ -35,6 +36,9 @@ ACTION = np.dtype(
         ("target", np.int32),  # instance to change to, -1 for an action on registers
         ("clears", np.int32),  # mask of bits
         ("sets", np.int32),
+        ("added", np.int32),  # to the counter
+        ("least", np.int32),  # value of the counter then
+        ("most", np.int32),
         ("restarts", np.int32),  # whether changing to the target starts something afresh
     ],
     align=True,
@@ -52,6 +56,7 @@ def robot_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
         fields |= {"percepts": I, "last_rule": I}
     if layout.wide:
         fields |= {"low_x": F, "low_y": F}
+    fields |= ground.fields(parts.ground, layout.wide)
     if layout.swarm:
         # Whether there is such a robot; its cell; where it was when pairs were listed.
         fields |= {"exists": I, "cell": I, "listed_x": F, "listed_y": F}
@@ -71,13 +76,13 @@ def work_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
         **dict.fromkeys(("dx", "dy", "d2", "per_d"), F),
         **dict.fromkeys(("place", "row", "word", "bits"), U),
         **dict.fromkeys(("restarts", "happens"), I),
-        "kind": I,
+        **dict.fromkeys(("kind", "object_near"), I),
         **{f"argument{number}": F for number in range(parts.arguments)},
     }
     if layout.swarm:
         fields["weight"] = F
     else:
-        fields |= {"nearest": F, "touch": I}
+        fields |= {"nearest": F, "touch": I, **parts.swarm_sums}
     if layout.rules:
         fields |= dict.fromkeys(("active", "fired", "memory"), I)
         fields |= {f"{sensor.name}_now": I for sensor in parts.sensors}

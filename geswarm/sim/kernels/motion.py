@@ -76,17 +76,25 @@ def advance_exactly(high: Any, low: Any, way: Any, along: Any) -> tuple[Any, Any
 
 
 @inlined
+def pushed_apart(dx: Any, dy: Any, d2: Any, radius: Any) -> tuple[Any, Any]:
+    """By how much a pair moves: half of its overlap; eastwards if it is at the very same place."""
+    d = F(math.sqrt(d2))
+    push = radius - HALF * d if d2 < TWO * TWO * radius * radius else ZERO
+    along_x = dx / d if d > ZERO else ONE
+    along_y = dy / d if d > ZERO else ZERO
+    return push * along_x, push * along_y
+
+
+@inlined
 def push_apart(one: Any, i: int, other: Any, j: int, radius: Any) -> None:
-    """Move both by half of their overlap; east and west if they are at the very same place."""
+    """Move both robots of a pair out of each other, the second one the other way."""
     dx = one.x[i] - other.x[j]
     dy = one.y[i] - other.y[j]
     d2 = fma(dx, dx, dy * dy)
     if d2 >= TWO * TWO * radius * radius:
         return
-    d = F(math.sqrt(d2))
-    push = radius - HALF * d
-    dx, dy = (dx / d, dy / d) if d > ZERO else (ONE, ZERO)
-    one.x[i] += push * dx
-    one.y[i] += push * dy
-    other.x[j] -= push * dx
-    other.y[j] -= push * dy
+    push_x, push_y = pushed_apart(dx, dy, d2, radius)
+    one.x[i] += push_x
+    one.y[i] += push_y
+    other.x[j] -= push_x
+    other.y[j] -= push_y

@@ -1,37 +1,73 @@
-"""What simulations start from: the scenario in numbers, robots; how many make a block."""
+"""What simulations start from: places, robots; how many make a block."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-RANDOM_WALK = 2
-"""Code of the behaviour at the start."""
-WANT_OBJECT = 1
-"""Bits of the internal states at the start."""
 
+class Places(NamedTuple):
+    """Where robots may start and objects lie, in double precision; metres, x east, y north.
 
-class Physics(NamedTuple):
-    """Scenario and robot in numbers; origin at the centre, x east, y north; metres and seconds."""
+    Attributes:
+        half_width: Greatest distance from the origin, along x; half_length along y.
+        half_length: See half_width.
+        radius: Of a robot.
+        start_x: Robots start in a box, from its middle `start_half` to the east and west ...
+        start_half: See start_x.
+        start_south: ... and from here `start_depth` to the north ...
+        start_depth: See start_south.
+        start_disc: ... in this disc (x, y, radius), if its radius is not negative ...
+        start_corners: ... in the polygon with these corners, shape (corners, 2), if there are any.
+        columns: How many robots fit side by side if nothing but the box limits where they start;
+            else 0.
+        round: Radius of a disc outline, negative if it is none.
+        walls: Sides of a polygon outline, from (x, y) to (x, y), shape (walls, 4).
+        discs: Obstacles (x, y, radius), shape (discs, 3).
+        boxes: Obstacles (x, y, half width, half length, cos, sin), shape (boxes, 6).
+        object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED or IN_DISC.
+        objects: Its numbers: middle x, half width, south, depth; as `boxes`; or as `discs`.
+        spots: Places for robots clear of each other, shape (spots, 2).
+    """
 
     half_width: float
     half_length: float
-    nest_edge: float  # the nest is south of this y
-    source_edge: float  # the source is north of this y
-    light_y: float
-    zone_miss: float
-    grip_reach: float
-    object_margin: float
+    radius: float
+    start_x: float
+    start_half: float
+    start_south: float
+    start_depth: float
+    start_disc: tuple[float, float, float]
+    start_corners: Any
+    columns: int
+    round: float
+    walls: Any
+    discs: Any
+    boxes: Any
+    object_form: int
+    objects: Any
+    spots: Any
+
+
+NO_PLACE, IN_BOX, IN_TURNED, IN_DISC = range(4)
+
+
+class Beginning(NamedTuple):
+    """What robots start with, wherever that is.
+
+    Attributes:
+        behaviour: Number of the instance of a behaviour.
+        state: Bits of the registers.
+        walk_min: Shortest time of a random heading (s); walk_max the longest one.
+        walk_max: See walk_min.
+        control_step: s.
+    """
+
+    behaviour: int
+    state: int
     walk_min: float
     walk_max: float
-    max_speed: float
-    turn_gain: float
-    proximity_range: float
-    rab_range: float
-    avoidance_gain: float
-    radius: float
-    wheel_base: float
     control_step: float
 
 

@@ -1,9 +1,10 @@
 """What scenarios are composed of: small functions of numbers, wired by names of parameters.
 
 A component says what it needs by naming it. A name is looked up in this order: what the decorator
-promises (random bits, the pair at hand), a register of the robot, a field of the robot (`x`, `y`,
-`cos`, `sin`, what some component writes, sums over the other robots), `step`, else a number of the
-scenario (`light_y`, `max_speed`). What no one names is not computed.
+promises (arguments, random bits, the pair at hand), a register of the robot, a field of the robot
+(`x`, `y`, `cos`, `sin`, what some component writes, sums over the other robots), what the ground
+gives (`in_nest`, `floor`, `push_x`, `to_light_x`, `brightness`), `step`, else a number of the
+scenario (`rab_range`, `max_speed`). What no one names is not computed.
 
 | decorator | the function returns |
 | --- | --- |
@@ -13,9 +14,12 @@ scenario (`light_y`, `max_speed`). What no one names is not computed.
 | `steering` | a vector that is added to the target of every behaviour, times a number by name |
 | `vector_sum`, `total`, `count` | the weight, the number, the truth for one pair of robots |
 | `effect` | whether it happens to the robot in this step |
-| `measure` | a number that is counted |
+| `measure` | a number that is counted for each robot |
+| `swarm_measure` | a number of the whole swarm, of sums such as `sum_in_nest` |
 | `condition` | whether it is so, for a behaviour's `again` |
-| `bounds` | the place (x, y), or the nearest one inside the walls |
+
+What rules call a sensor's reading is a `percept` of it; behaviours and registers have their words
+with them (`geswarm.rules.declarations`).
 
 The functions work on single-precision numbers, one lane of a vector each: no branches but
 `a if condition else b`, no calls but those of `geswarm.sim.kernels.single`, whole numbers cast by
@@ -30,11 +34,13 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeAlias
 
+from geswarm.rules.declarations import BehaviourName, InternalStateName, PreconditionName
+from geswarm.rules.model import Value
 from geswarm.sim.kernels.jit import inlined
 
 Real: TypeAlias = Any
 """A numpy.float32, or a vector of them once compiled."""
-Whole: TypeAlias = Any
+Integer: TypeAlias = Any
 """A numpy.int32."""
 Bits: TypeAlias = Any
 """32 random bits, a numpy.uint32."""
@@ -44,6 +50,8 @@ OF_A_PAIR = ("dx", "dy", "d2", "per_d")
 """From the other robot to this one (m), squared distance, its inverse root."""
 OTHER = "other_"
 """Prefix of what the other robot of a pair has."""
+SUM = "sum_"
+"""Prefix of a sum over all robots, for what is counted of a swarm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,31 +59,43 @@ class Component:
     """A function and what it is for.
 
     Attributes:
-        function: Plain Python; numbers in, numbers out.
+        function: Plain Python; numbers in, numbers out. None for what the kernel itself makes of
+            the names in `given`.
+        called: Its name, if there is no function.
+        given: What it names, if there is no function.
     """
 
-    function: Function = field(repr=False)
+    function: Function | None = field(repr=False)
+    called: str = ""
+    given: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
         """The function's name."""
-        return self.function.__name__
+        return self.function.__name__ if self.function else self.called
 
     @property
-    def module(self) -> str:
+    def module(self) -> str | None:
         """Where the function is defined."""
-        return self.function.__module__
+        return self.function.__module__ if self.function else None
 
     @property
     def place(self) -> str:
         """File and line, for messages."""
+        if self.function is None:
+            return "made by GESwarm"
         code = self.function.__code__
         return f"{code.co_filename}, line {code.co_firstlineno}"
+
+    @property
+    def about(self) -> str:
+        """The first line of what the function says of itself."""
+        return (inspect.getdoc(self.function) or "").split("\n")[0] if self.function else ""
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
         """What it names."""
-        return tuple(inspect.signature(self.function).parameters)
+        return tuple(inspect.signature(self.function).parameters) if self.function else self.given
 
     @cached_property
     def inlined(self) -> Any:
@@ -85,10 +105,29 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Sensor(Component):
-    """A reading from 0 to `values` - 1; fails as a whole, to 0, with a probability by name."""
+    """A reading from 0 to `values` - 1; fails as a whole, to 0, with a probability by name.
+
+    Without a function the names in `given` are its bits, the first one counting least; or it is the
+    only one of them.
+    """
 
     values: int = 2
     fails: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Percept:
+    """What rules call a sensor's reading.
+
+    Attributes:
+        word: As rules write it.
+        sensor: What it looks at.
+        value: Of the word's reading, for each of the sensor's.
+    """
+
+    word: PreconditionName
+    sensor: Sensor
+    value: Callable[[int], Value] = int
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,21 +138,29 @@ class Update(Component):
     draws: tuple[str, ...] = ()
 
 
+NAMELESS = BehaviourName("", "", "")
+
+
 @dataclass(frozen=True, eq=False)
 class Behaviour(Component):
     """A target vector.
 
     Attributes:
+        word: As rules write it; its arguments are numbers that the function may name.
         start: What changing to it does, and `again` being true.
         again: Whether it starts afresh by itself; None for never.
-        arguments: Numbers that a rule gives it.
         paced: Returns its share of the highest speed, too.
     """
 
+    word: BehaviourName = field(default=NAMELESS)
     start: Update | None = None
     again: Component | None = None
-    arguments: tuple[str, ...] = ()
     paced: bool = False
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """Names of the numbers that a rule gives it."""
+        return tuple(each.name for each in self.word.arguments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,6 +211,21 @@ class Measure(Component):
 
     at: Effect | str = "step"
     kind: type = int
+    unit: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class SwarmMeasure(Component):
+    """A number of the whole swarm; without a function the greatest of the names in `given`.
+
+    Attributes:
+        at: "step" for the sum over all steps, "end" for once at the end.
+        kind: Of the number.
+    """
+
+    at: str = "step"
+    kind: type = int
+    unit: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,80 +233,37 @@ class Register:
     """An internal state of a robot that actions change.
 
     Attributes:
-        name: As components name it.
-        initially: Its value at the start, and of a momentary one at the start of every step.
-        momentary: Whether it falls back after every step.
+        word: As rules write it; one of whole numbers is a counter, from 0 to at most 7.
         seen_by: The sensor that reads it; what rules make of it is known when they are compiled.
-        values: How many; 2 for true and false.
     """
 
-    name: str
-    initially: int = 0
-    momentary: bool = False
+    word: InternalStateName
     seen_by: Sensor | None = None
-    values: int = 2
+
+    @property
+    def name(self) -> str:
+        """As components name it."""
+        return self.word.name.lower().replace("-", "_")
+
+    @property
+    def initially(self) -> int:
+        """Position of its value at the start, and of a momentary one at the start of every step."""
+        return self.word.values.index(self.word.initially)
+
+    @property
+    def momentary(self) -> bool:
+        """Whether it falls back after every step."""
+        return self.word.momentary
+
+    @property
+    def values(self) -> int:
+        """How many; 2 for true and false."""
+        return len(self.word.values)
 
     @property
     def bits(self) -> int:
         """How many bits of the robot's state it takes."""
-        return (self.values - 1).bit_length()
+        return COUNTER_BITS if self.word.counts else (self.values - 1).bit_length()
 
 
-def sensor(values: int = 2, fails: str | None = None) -> Callable[[Function], Sensor]:
-    """The function returns a reading, see `Sensor`."""
-    return lambda function: Sensor(function, values, fails)
-
-
-def update(writes: Mapping[str, type], draws: tuple[str, ...] = ()) -> Callable[[Function], Update]:
-    """The function returns new values of the fields in `writes`, in that order."""
-    return lambda function: Update(function, dict(writes), draws)
-
-
-def behaviour(
-    start: Update | None = None,
-    again: Component | None = None,
-    arguments: tuple[str, ...] = (),
-    paced: bool = False,
-) -> Callable[[Function], Behaviour]:
-    """The function returns a target vector, see `Behaviour`."""
-    return lambda function: Behaviour(function, start, again, arguments, paced)
-
-
-def condition(function: Function) -> Component:
-    """The function returns 1 if it is so, else 0."""
-    return Component(function)
-
-
-def steering(gain: str) -> Callable[[Function], Steering]:
-    """The function returns a vector for every behaviour, see `Steering`."""
-    return lambda function: Steering(function, gain)
-
-
-def vector_sum(output: str) -> Callable[[Function], Sum]:
-    """Over the other robots: the function's weight times (dx, dy)."""
-    return lambda function: Sum(function, output, "vector")
-
-
-def total(output: str) -> Callable[[Function], Sum]:
-    """Over the other robots: the sum of the function's number."""
-    return lambda function: Sum(function, output, "total")
-
-
-def count(output: str) -> Callable[[Function], Sum]:
-    """Over the other robots: for how many the function is true."""
-    return lambda function: Sum(function, output, "count")
-
-
-def effect(then: Update, nearest: str | None = None) -> Callable[[Function], Effect]:
-    """The function returns 1 if the effect happens, else 0; see `Effect`."""
-    return lambda function: Effect(function, then, nearest)
-
-
-def measure(at: Effect | str = "step", kind: type = int) -> Callable[[Function], Measure]:
-    """The function returns a number, see `Measure`."""
-    return lambda function: Measure(function, at, kind)
-
-
-def bounds(function: Function) -> Component:
-    """The function returns the place (x, y), or the nearest one inside the walls."""
-    return Component(function)
+COUNTER_BITS = 3

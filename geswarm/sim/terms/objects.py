@@ -2,69 +2,75 @@
 
 from __future__ import annotations
 
-from geswarm.sim.kernels.single import ONE, TWO, F, I, fma, fraction
-from geswarm.sim.terms.component import Bits, Real, Whole, effect, measure, sensor, update
+from geswarm.rules.vocabulary import FORAGING
+from geswarm.sim.kernels.single import F, I
+from geswarm.sim.terms.component import Integer, Percept, Real, Register
+from geswarm.sim.terms.declare import effect, measure, percept, sensor, update
 
 
 @sensor()
-def has_object(carried: Whole) -> Whole:
+def has_object(carried: Integer) -> Integer:
     """Whether the robot holds an object."""
     return carried
 
 
 @sensor()
-def wants_object(want_object: Whole) -> Whole:
+def wants_object(want_object: Integer) -> Integer:
     """The register that decides whether objects are picked up."""
     return want_object
 
 
+@sensor()
+def object_in_sight(object_near: Integer) -> Integer:
+    """Whether an object lies within `object_range`."""
+    return object_near
+
+
+SEES_OBJECT = percept(
+    "SEES_OBJECT", object_in_sight, holds="seeing an object", fails="seeing no object"
+)
+HAS_OBJECT = Percept(FORAGING.percepts["HAS_OBJECT"], has_object, bool)
+WANT_OBJECT = Register(FORAGING.state_names["WANT_OBJECT"], seen_by=wants_object)
+DROP_OBJECT = Register(FORAGING.state_names["DROP_OBJECT"])
+
+
 @update(writes={"carried": I})
-def let_go() -> Whole:
+def let_go() -> Integer:
     """The object is gone."""
     return I(0)
 
 
 @effect(then=let_go)
-def drop(carried: Whole, drop_object: Whole) -> Whole:
+def drop(carried: Integer, drop_object: Integer) -> Integer:
     """A carried object is dropped."""
     return I(carried & drop_object)
 
 
 @update(writes={"carried": I, "object_x": F, "object_y": F}, draws=("object_x", "object_y"))
-def take(
-    object_x: Bits,
-    object_y: Bits,
-    half_width: Real,
-    half_length: Real,
-    object_margin: Real,
-    source_edge: Real,
-) -> tuple[Whole, Real, Real]:
+def take(fresh_x: Real, fresh_y: Real) -> tuple[Integer, Real, Real]:
     """The object is held; a new one appears at a uniformly random place in the source."""
-    north = half_length - object_margin
-    east = half_width - object_margin
-    x = east * (TWO * fraction(object_x) - ONE)
-    return I(1), x, fma(north - source_edge, fraction(object_y), source_edge)
+    return I(1), fresh_x, fresh_y
 
 
 @effect(then=take, nearest="grip_reach")
-def pick_up(carried: Whole, want_object: Whole) -> Whole:
+def pick_up(carried: Integer, want_object: Integer) -> Integer:
     """The nearest object within reach is taken."""
     return I(want_object & I(I(1) - carried))
 
 
-@measure(at=pick_up)
-def picked() -> Whole:
+@measure(at=pick_up, unit="objects")
+def picked() -> Integer:
     """Objects picked up."""
     return I(1)
 
 
-@measure(at=drop)
-def collected(y: Real, nest_edge: Real) -> Whole:
+@measure(at=drop, unit="objects")
+def collected(in_nest: Integer) -> Integer:
     """Objects dropped inside the nest."""
-    return I(y < nest_edge)
+    return in_nest
 
 
-@measure(at=drop)
-def lost(y: Real, nest_edge: Real) -> Whole:
+@measure(at=drop, unit="objects")
+def lost(in_nest: Integer) -> Integer:
     """Objects dropped outside the nest."""
-    return I(I(1) - I(y < nest_edge))
+    return I(I(1) - in_nest)

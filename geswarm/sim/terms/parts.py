@@ -8,22 +8,31 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from geswarm.rules.model import Term
+from geswarm.rules.vocabulary import Vocabulary
 from geswarm.sim.kernels import draws
 from geswarm.sim.kernels.single import F, I
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS
 from geswarm.sim.terms.component import (
+    SUM,
     Behaviour,
     Component,
     Effect,
     Measure,
+    Percept,
     Register,
     Sensor,
     Steering,
     Sum,
+    SwarmMeasure,
     Update,
 )
+from geswarm.sim.terms.ground import Ground
 
 CORE = ("x", "y", "cos", "sin", "behaviour", "state", "key_low", "key_high")
 """Fields that every robot has."""
+REAL = ("x", "y", "cos", "sin", "push_x", "push_y", "to_light_x", "to_light_y", "brightness")
+"""What is no whole number among what components may name without writing it."""
 MOST_VALUES, MOST_CODES, MOST_STATE_BITS = 64, 65_536, 8
 
 
@@ -37,15 +46,18 @@ class Parts:
 
     Attributes:
         name: What it is called.
-        sensors: Their readings make up the code of a situation, the first one counting least.
+        vocabulary: What rules may mention; each of it has its part here.
+        percepts: What rules call the readings.
+        sensors: Their readings make up the code of a situation, the first one counting least; those
+            that read registers come last.
         behaviours: Numbered as the vocabulary numbers them.
         first: The behaviour at the start.
+        ground: The form of the arena.
         registers: Internal states; the first one has the lowest bits.
         sums: Sums over the other robots that are on offer.
         steering: Added to the target of every behaviour.
         effects: What happens in a step, in this order, after the decision and before the motion.
         measures: What is counted.
-        bounds: What keeps robots inside the walls.
 
     Raises:
         PartsError: Two components have the same name or the same random numbers, or a limit is
@@ -53,15 +65,17 @@ class Parts:
     """
 
     name: str
+    vocabulary: Vocabulary
+    percepts: tuple[Percept, ...]
     sensors: tuple[Sensor, ...]
     behaviours: tuple[Behaviour, ...]
     first: Behaviour
-    bounds: Component
+    ground: Ground
     registers: tuple[Register, ...] = ()
     sums: tuple[Sum, ...] = ()
     steering: tuple[Steering, ...] = ()
     effects: tuple[Effect, ...] = ()
-    measures: tuple[Measure, ...] = ()
+    measures: tuple[Measure | SwarmMeasure, ...] = ()
 
     def __post_init__(self) -> None:
         self._check_names()
@@ -71,7 +85,7 @@ class Parts:
     @cached_property
     def needed_sums(self) -> tuple[Sum, ...]:
         """The sums that some component names."""
-        named = {name for each in self.components for name in each.needs}
+        named = {name.removeprefix(SUM) for each in self.components for name in each.needs}
         return tuple(one for one in self.sums if named & set(one.outputs))
 
     @cached_property
@@ -80,7 +94,7 @@ class Parts:
         return tuple(dict.fromkeys(self._components()))
 
     def _components(self) -> Iterator[Component]:
-        yield from (*self.sensors, *self.behaviours, *self.steering, *self.effects, self.bounds)
+        yield from (*self.sensors, *self.behaviours, *self.steering, *self.effects)
         for behaviour in self.behaviours:
             if behaviour.start:
                 yield behaviour.start
@@ -108,13 +122,54 @@ class Parts:
         return fields
 
     @cached_property
+    def swarm_sums(self) -> dict[str, type]:
+        """Sums over all robots that measures of the swarm name, with the kind of number."""
+        counted = [each for each in self.measures if isinstance(each, SwarmMeasure)]
+        names = {name for each in counted for name in each.needs if name.startswith(SUM)}
+        real = {name for name in names if name.removeprefix(SUM) in REAL}
+        return {
+            name: F if name in real else self.own_fields.get(name.removeprefix(SUM), I)
+            for name in sorted(names)
+        }
+
+    @cached_property
     def shifts(self) -> dict[str, int]:
         """Where each register's bits begin in a robot's state."""
         shifts, shift = {}, 0
-        for register in self.registers:
+        for register in sorted(self.registers, key=lambda each: each.word.counts):
             shifts[register.name] = shift
             shift += register.bits
         return shifts
+
+    @cached_property
+    def counter(self) -> Register | None:
+        """The register that counts; its bits are above those of all others."""
+        return next((each for each in self.registers if each.word.counts), None)
+
+    @cached_property
+    def percepts_by_name(self) -> dict[str, Percept]:
+        """By the word that rules write."""
+        return {each.word.name: each for each in self.percepts}
+
+    @cached_property
+    def kinds(self) -> dict[str, int]:
+        """Position of each behaviour by the word that rules write."""
+        return {each.word.name: at for at, each in enumerate(self.behaviours)}
+
+    @cached_property
+    def plain_behaviours(self) -> tuple[Term, ...]:
+        """The behaviours without arguments: the first instances of every rule set."""
+        return tuple(Term(each.word.name) for each in self.behaviours if not each.arguments)
+
+    @property
+    def most_instances(self) -> int:
+        """How many instances of behaviours a rule set can have."""
+        return ROW_BEHAVIOURS if self.arguments else len(self.behaviours)
+
+    @cached_property
+    def first_instance(self) -> int:
+        """Number of the behaviour at the start."""
+        return self.plain_behaviours.index(Term(self.first.word.name))
 
     def mask(self, register: Register) -> int:
         """A register's bits in a robot's state."""
@@ -169,6 +224,10 @@ class Parts:
                 raise PartsError(
                     f"{self.name}: {each.name} ({each.place}): the name is taken ({other.place})"
                 )
+        for group in (self.percepts, self.behaviours, self.registers):
+            words = [part.word.name for part in group]
+            if twice := sorted({word for word in words if words.count(word) > 1}):
+                raise PartsError(f"{self.name}: {', '.join(twice)}: expected one of each name")
 
     def _check_limits(self) -> None:
         for each in self.sensors:
@@ -182,11 +241,18 @@ class Parts:
                 f"{self.name}: expected at most {MOST_CODES} combinations of readings, "
                 f"got {self.codes}"
             )
-        if self.states > 1 << MOST_STATE_BITS:
+        flags = sum(each.bits for each in self.registers if not each.word.counts)
+        if flags > MOST_STATE_BITS:
             raise PartsError(
-                f"{self.name}: expected registers of at most {MOST_STATE_BITS} bits, "
-                f"got {self.states.bit_length() - 1}"
+                f"{self.name}: expected registers of at most {MOST_STATE_BITS} bits, got {flags}"
             )
+        for number, counter in enumerate(one for one in self.registers if one.word.counts):
+            counted = tuple(range(counter.values))
+            if number or counter.word.values != counted or counter.values > 8:
+                raise PartsError(
+                    f"{self.name}: {counter.word.name}: expected one counter, of whole numbers "
+                    "from 0 to at most 7"
+                )
 
     def _check_draws(self) -> None:
         taken: dict[int, str] = {}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from geswarm.analysis.reproduction import Plan, Results, studies
-from geswarm.evaluation import Evaluation
+from geswarm.analysis.reproduction.results import foraged
 from geswarm.ge import GenerationRecord
 from geswarm.rules import load_preset, parse_text
 
@@ -13,7 +13,7 @@ WALK = parse_text("rule do p = 0.1, RANDOM_WALK")
 def sample(mean, spread=10.0, runs=50):
     """Runs spread evenly around a mean."""
     collected = np.rint(mean + np.linspace(-spread, spread, runs)).astype(np.int64)
-    return Evaluation(np.maximum(collected, 0), np.zeros(runs, dtype=np.int64))
+    return foraged(np.maximum(collected, 0), np.zeros(runs))
 
 
 def fabricated(

@@ -192,7 +192,7 @@ def test_argos_cases_are_those_of_the_agreement_test():
     }
     presets = {"EVO 8": "evo8", "hand-coded": "hand-coded"}
     packaged = {
-        (case.scenario.name, presets[case.rules]): found.collected.tolist()
+        (case.scenario.name, presets[case.rules]): found.fitness.tolist()
         for case, found in studies.argos().items()
     }
     assert packaged == expected

@@ -1,17 +1,12 @@
 """Components that GESwarm does not come with."""
 
+from geswarm.rules.arguments import Number
+from geswarm.rules.declarations import InternalStateName
 from geswarm.sim.kernels.single import ONE, ZERO, F, I, fma
-from geswarm.sim.terms import avoidance, objects
-from geswarm.sim.terms.component import (
-    Behaviour,
-    Register,
-    behaviour,
-    count,
-    measure,
-    sensor,
-    vector_sum,
-)
-from geswarm.sim.terms.parts import Parts
+from geswarm.sim.terms import objects
+from geswarm.sim.terms.component import Behaviour, Register
+from geswarm.sim.terms.declare import behaviour, count, measure, percept, sensor, vector_sum
+from tests.sim.assembly.made import parts_of
 
 STAY = 1
 
@@ -31,12 +26,12 @@ def neighbours(near):
     return near if near < I(7) else I(7)
 
 
-@behaviour(paced=True)
+@behaviour("STOP", paced=True)
 def stop(cos, sin):
     return cos, sin, ZERO
 
 
-@behaviour(arguments=("gain",))
+@behaviour("ATTRACTION", Number("gain", 1.0, 5.0, 0.5))
 def attraction(gain, apart_x, apart_y, cos, sin):
     return fma(-gain, apart_x, cos), fma(-gain, apart_y, sin)
 
@@ -58,35 +53,32 @@ def phototaxis(x, y):
 phototaxis = Behaviour(phototaxis)
 
 
-@behaviour()
+@behaviour("GO_NOWHERE")
 def goes_nowhere(hither):
     return hither, ONE
 
 
-GATHERING = Parts(
+GATHERING = parts_of(
     "gathering",
-    sensors=(neighbours,),
+    percepts=(percept("NEIGHBOURS", neighbours),),
     behaviours=(stop, attraction),
     first=stop,
-    bounds=avoidance.box,
-    registers=(Register("near_now"),),
+    registers=(Register(InternalStateName("NEAR_NOW", "be near")),),
     sums=(is_near, unit_vectors),
     measures=(together, at_the_end),
 )
-ALONE = Parts(
+ALONE = parts_of(
     "alone",
-    sensors=(objects.wants_object,),
+    percepts=(objects.HAS_OBJECT,),
     behaviours=(stop,),
     first=stop,
-    bounds=avoidance.box,
-    registers=(Register("want_object"),),
+    registers=(objects.WANT_OBJECT,),
     sums=(is_near,),
 )
-WRONG = Parts(
+WRONG = parts_of(
     "wrong",
-    sensors=(objects.wants_object,),
+    percepts=(objects.HAS_OBJECT,),
     behaviours=(goes_nowhere,),
     first=goes_nowhere,
-    bounds=avoidance.box,
-    registers=(Register("want_object"),),
+    registers=(objects.WANT_OBJECT,),
 )

@@ -1,7 +1,12 @@
-"""Prints which loops of the built-in kernels LLVM has vectorised; run in a process of its own."""
+"""Prints which loops of a kernel LLVM has vectorised; run in a process of its own.
+
+python remarks.py LAYOUT [SCENARIO or ARENA]: of foraging, of a built-in scenario, or of robots in
+an arena of a kind of `arenas.KINDS`.
+"""
 
 import sys
 import tempfile
+from pathlib import Path
 
 import llvmlite.binding as llvm
 import numba
@@ -19,28 +24,48 @@ numba.njit = with_lines
 
 import numpy as np  # noqa: E402
 
-from geswarm.sim import load_scenario  # noqa: E402
+from geswarm.sim import load_scenario, scenario_names  # noqa: E402
 from geswarm.sim.assembly import records  # noqa: E402
 from geswarm.sim.assembly.kernel import assemble  # noqa: E402
 from geswarm.sim.assembly.source import Layout  # noqa: E402
 from geswarm.sim.encoding import grid_for  # noqa: E402
-from geswarm.sim.terms.foraging import FORAGING  # noqa: E402
+from geswarm.sim.library import parts_of  # noqa: E402
 
+PAPER = load_scenario("paper")
+PARTS = parts_of(PAPER)
+if len(sys.argv) > 2 and sys.argv[2] in scenario_names():
+    PARTS = parts_of(load_scenario(sys.argv[2]))
+elif len(sys.argv) > 2:
+    sys.path.insert(0, str(Path(__file__).parents[3]))
+    from hypothesis import Phase, given, settings
+
+    from geswarm.sim.terms.ground import Ground
+    from tests.sim.assembly.arenas import KINDS, parts_in
+
+    @settings(max_examples=1, derandomize=True, phases=[Phase.generate], deadline=None)
+    @given(KINDS[sys.argv[2]])
+    def choose(arena):
+        global PARTS
+        PARTS = parts_in(Ground.of(arena))
+
+    choose()
 layout = Layout() if sys.argv[1] == "lanes" else Layout(swarm=True, rules=True)
-kernel = assemble(FORAGING, layout)
+kernel = assemble(PARTS, layout)
 whole = np.zeros(1, dtype=np.uint32)
+instances = (np.zeros(1, dtype=np.int32), np.zeros((1, PARTS.arguments), dtype=np.float32))
+instances = instances if PARTS.arguments else ()
 common = (
     np.zeros(len(kernel.numbers), dtype=np.float32),
-    np.zeros(1, dtype=records.robot_type(FORAGING, layout)),
+    np.zeros(1, dtype=records.robot_type(PARTS, layout)),
     np.zeros((1, 2), dtype=np.float32) if layout.swarm else np.zeros(1, dtype=records.OBJECT),
-    np.zeros(1, dtype=records.work_type(FORAGING, layout))[0],
+    np.zeros(1, dtype=records.work_type(PARTS, layout))[0],
 )
 if layout.swarm:
-    rules = (np.zeros(0, dtype=records.RULE), np.zeros((0, 3), dtype=np.uint64))
+    rules = (np.zeros(0, dtype=records.RULE), np.zeros((0, len(PARTS.sensors)), dtype=np.uint64))
     actions = (np.zeros(0, dtype=records.ACTION), np.zeros(1, dtype=records.CHANCE))
-    grid = grid_for(load_scenario("paper"))
-    kernel.run(*common, *rules, *actions, np.zeros(0, dtype=np.int64), grid, 0, 0)
+    grid = grid_for(PAPER)
+    kernel.run(*common, *rules, *actions, np.zeros(0, dtype=np.int64), *instances, grid, 0, 0)
 else:
     group = np.zeros(1, dtype=records.GROUP)[0]
-    kernel.run(*common, group, whole.astype(np.uint16), whole, whole, whole, 64, 0, 0)
+    kernel.run(*common, group, whole.astype(np.uint16), whole, whole, whole, *instances, 64, 0, 0)
 print("file", kernel.run.py_func.__code__.co_filename)

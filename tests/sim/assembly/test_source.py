@@ -1,5 +1,6 @@
 """What kernels are assembled to, and from other components than the built-in ones."""
 
+import dataclasses
 import importlib
 from pathlib import Path
 
@@ -11,11 +12,12 @@ from geswarm.sim.assembly.kernel import assemble, source_of
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.encoding import numbers_by_name
+from geswarm.sim.library import parts_of
 from geswarm.sim.scenario import load_scenario
-from geswarm.sim.terms.foraging import FORAGING
-from geswarm.sim.terms.parts import Parts, PartsError
+from geswarm.sim.terms.parts import PartsError
 from tests.sim.assembly import gathering
 
+FORAGING = parts_of(load_scenario("paper"))
 LAYOUTS = [Layout(), Layout(swarm=True, rules=True)]
 
 
@@ -78,13 +80,7 @@ def test_counts_vectors_arguments_and_measures_of_others():
 
 def test_components_that_do_not_fit_are_named():
     with pytest.raises(PartsError, match=r"phototaxis \(.*, line \d+\): the name is taken"):
-        Parts(
-            "twice",
-            sensors=FORAGING.sensors,
-            behaviours=(*FORAGING.behaviours, gathering.phototaxis),
-            first=FORAGING.first,
-            bounds=FORAGING.bounds,
-        )
+        dataclasses.replace(FORAGING, behaviours=(*FORAGING.behaviours, gathering.phototaxis))
     kernel = assemble(gathering.WRONG, Layout())
     message = r"gathering.py, line \d+: goes_nowhere names hither, which is neither a field of"
     with pytest.raises(PartsError, match=message):

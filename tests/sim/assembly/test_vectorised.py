@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.sim.assembly.arenas import KINDS
+
 SCALAR = (
     "= U(classes[work.place[lane]])",  # a look-up
     "= rows[work.row[lane]]",
@@ -21,10 +23,10 @@ SCALAR = (
 """First lines of the loops that are meant to go through the lanes one by one."""
 
 
-def loops_that_are_not_vectorised(layout):
+def loops_that_are_not_vectorised(*what):
     script = Path(__file__).with_name("remarks.py")
     done = subprocess.run(
-        [sys.executable, script, layout], capture_output=True, text=True, timeout=600, check=True,
+        [sys.executable, script, *what], capture_output=True, text=True, timeout=600, check=True,
         env=os.environ,
     )  # fmt: skip
     file = Path(re.search(r"^file (.*)$", done.stdout, re.MULTILINE)[1])
@@ -48,3 +50,9 @@ def loops_that_are_not_vectorised(layout):
 @pytest.mark.parametrize("layout", ["lanes", "swarm"])
 def test_every_loop_over_lanes_is_vectorised(layout):
     assert loops_that_are_not_vectorised(layout) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("arena", KINDS)
+def test_every_loop_is_vectorised_in_arenas_of_every_form(arena):
+    assert loops_that_are_not_vectorised("lanes", arena) == []

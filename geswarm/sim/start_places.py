@@ -1,0 +1,188 @@
+"""Where robots start, in an arena of any form."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from geswarm.sim.arena import Arena, Box, Disc, Polygon
+from geswarm.sim.arena_numbers import walls
+from geswarm.sim.compiled import look_around
+from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TURNED, NO_PLACE, Places
+from geswarm.sim.shapes import Extent, around_origin, corners_of, extent_of, turn_of
+from geswarm.sim.source_place import box_numbers, where_objects_lie
+from geswarm.sim.terms.ground import GroundError
+
+_MOST_SAMPLES = 1_000_000
+_FINE = 8.0
+"""Free places are looked for at distances of a robot's radius divided by this."""
+
+Array = npt.NDArray[np.float64]
+
+
+def room_for(arena: Arena, radius: float) -> int:
+    """How many robots can start in an arena for certain, clear of each other and of all else.
+
+    Args:
+        arena: The arena.
+        radius: Of a robot (m).
+    """
+    places = places_of(arena, radius)
+    if places.start_half < 0.0 or places.start_depth < 0.0:
+        return 0
+    if places.columns:
+        return places.columns * (1 + math.floor(places.start_depth / (2.0 * radius)))
+    return len(spots_of(arena, radius))
+
+
+@lru_cache(maxsize=64)
+def places_of(arena: Arena, radius: float, margin: float | None = None) -> Places:
+    """Where robots start and objects lie, for the kernels; without spots.
+
+    Args:
+        arena: The arena.
+        radius: Of a robot (m).
+        margin: Least distance of objects from walls and obstacles (m); None for no objects.
+
+    Raises:
+        GroundError: Objects cannot be placed in the area `source`.
+    """
+    region = None if arena.start is None else arena.resolved(arena.start)
+    reach = around_origin(*_reach(arena, radius))
+    extent = reach if region is None else extent_of(region).intersection(reach)
+    box = box_numbers(extent)
+    corners: Array = np.zeros((0, 2))
+    if isinstance(region, Polygon):
+        corners = np.array(region.points)
+    elif isinstance(region, Box) and region.angle % 180.0:
+        corners = np.array(corners_of(region))
+    disc = (region.x, region.y, region.radius) if isinstance(region, Disc) else (0.0, 0.0, -1.0)
+    is_bare = isinstance(arena.outline, Box) and not arena.obstacles
+    in_cells = is_bare and not isinstance(region, Disc) and not len(corners)
+    form, objects = _objects(arena, margin)
+    return Places(
+        half_width=arena.half_width,
+        half_length=arena.half_length,
+        radius=radius,
+        start_x=box["x"],
+        start_half=box["half_width"],
+        start_south=box["south"],
+        start_depth=box["depth"],
+        start_disc=disc,
+        start_corners=corners,
+        columns=_columns(arena, extent, radius) if in_cells else 0,
+        round=arena.outline.radius if isinstance(arena.outline, Disc) else -1.0,
+        walls=_walls(arena),
+        discs=_rows(3, [(d.x, d.y, d.radius) for d in arena.obstacles if isinstance(d, Disc)]),
+        boxes=_rows(6, [_box(each) for each in arena.obstacles if isinstance(each, Box)]),
+        object_form=form,
+        objects=objects,
+        spots=np.zeros((0, 2)),
+    )
+
+
+def _reach(arena: Arena, radius: float) -> tuple[float, float]:
+    return arena.half_width - radius, arena.half_length - radius
+
+
+def _columns(arena: Arena, extent: Extent, radius: float) -> int:
+    """How many robots fit side by side in a box, walls being where they are."""
+    diameter = 2.0 * radius
+    reach_x, _ = _reach(arena, radius)
+    whole = (extent.west, extent.east) == (-reach_x, reach_x)
+    width = 2.0 * arena.half_width - diameter if whole else extent.east - extent.west
+    return 1 + max(0, math.floor(width / diameter))
+
+
+def _walls(arena: Arena) -> Array:
+    if not isinstance(arena.outline, Polygon):
+        return np.zeros((0, 4))
+    sides = list(walls(arena.outline))
+    ends = [*sides[1:], sides[0]]
+    pairs = zip(sides, ends, strict=True)
+    return np.array([(one.x, one.y, other.x, other.y) for one, other in pairs])
+
+
+def _rows(width: int, rows: list[tuple[float, ...]]) -> Array:
+    return np.array(rows, dtype=np.float64).reshape(-1, width)
+
+
+def _box(box: Box) -> tuple[float, ...]:
+    return box.x, box.y, box.width / 2.0, box.length / 2.0, *turn_of(box)
+
+
+def _objects(arena: Arena, margin: float | None) -> tuple[int, Array]:
+    """How the places of objects are drawn, and its numbers."""
+    place = None if margin is None else where_objects_lie(arena, margin)
+    if place is None:
+        return NO_PLACE, np.zeros(6)
+    shape = place.shape
+    if isinstance(shape, Disc):
+        return IN_DISC, np.array([shape.x, shape.y, shape.radius, 0.0, 0.0, 0.0])
+    if isinstance(shape, Box):
+        return IN_TURNED, np.array(_box(shape))
+    return IN_BOX, np.array([*box_numbers(shape).values(), 0.0, 0.0])
+
+
+@lru_cache(maxsize=16)
+def spots_of(arena: Arena, radius: float) -> Array:
+    """Places for robots that are clear of each other and of all else, shape (spots, 2).
+
+    Rows two radii apart, and in each of them as many as there is room for; the best of some
+    beginnings.
+    """
+    places = places_of(arena, radius)
+    if places.start_half < 0.0 or places.start_depth < 0.0:
+        return np.zeros((0, 2))
+    found = [_rows_of_spots(places, share / 8.0) for share in range(8)]
+    return max(found, key=len)
+
+
+def _rows_of_spots(places: Places, share: float) -> Array:
+    """The free places of rows that begin `share` of their distance from the southern end."""
+    diameter = 2.0 * places.radius * (1.0 + 1e-9)
+    width, depth = 2.0 * places.start_half, places.start_depth
+    first = min(share * diameter, depth)
+    rows = first + diameter * np.arange(1 + math.floor((depth - first) / diameter))
+    least = max(places.radius / _FINE, width * len(rows) / _MOST_SAMPLES)
+    columns = np.linspace(-1.0, 1.0, 2 + math.floor(width / least))
+    x, y = np.meshgrid(places.start_x + places.start_half * columns, places.start_south + rows)
+    points = np.column_stack((x.ravel(), y.ravel()))
+    free, _ = seen_around(places, points)
+    spots: list[tuple[float, float]] = []
+    for row_x, row_y, row_free in zip(x, y, free.reshape(x.shape), strict=True):
+        last = -math.inf
+        for at in row_x[row_free].tolist():
+            if at - last >= diameter:
+                spots.append((at, row_y[0].item()))
+                last = at
+    return np.array(spots).reshape(-1, 2)
+
+
+def seen_around(places: Places, points: Array) -> tuple[npt.NDArray[np.bool_], Array]:
+    """Where robots may start, and the distance to the nearest wall or obstacle (m).
+
+    Args:
+        places: From `places_of`.
+        points: Shape (points, 2); of the walls of a box outline nothing is known.
+    """
+    free, gaps = np.zeros(len(points), dtype=np.bool_), np.zeros(len(points))
+    look_around(places, np.ascontiguousarray(points), free, gaps)
+    return free, gaps
+
+
+def require_room(arena: Arena, radius: float, robots: int) -> Array:
+    """The spots of an arena.
+
+    Raises:
+        GroundError: They are not enough.
+    """
+    spots = spots_of(arena, radius)
+    if len(spots) < robots:
+        raise GroundError(
+            f"{robots} robots do not fit where they start, which has room for {len(spots)}"
+        )
+    return spots
