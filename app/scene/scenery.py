@@ -51,9 +51,12 @@ def draw_scenery(scene: viser.SceneApi, root: str, scenario: Scenario) -> None:
         _flat(scene, f"{root}/floor_{number}", mesh, colour)
     apron = rim(arena.outline, _APRON_WIDTH).moved(z=_APRON_Z)
     _flat(scene, f"{root}/apron", apron, _TABLE)
-    _flat(scene, f"{root}/walls", wall(arena.outline, WALL_THICKNESS, WALL_HEIGHT), _WALL)
+    foot = _TABLE_TOP * stretch  # of what stands on the table: no light shines through below it
+    walls = wall(arena.outline, WALL_THICKNESS, WALL_HEIGHT - foot).moved(z=foot)
+    _flat(scene, f"{root}/walls", walls, _WALL)
     if arena.obstacles:
-        _flat(scene, f"{root}/obstacles", merged(list(map(_solid, arena.obstacles))), _OBSTACLE)
+        solids = merged([_solid(obstacle, foot) for obstacle in arena.obstacles])
+        _flat(scene, f"{root}/obstacles", solids, _OBSTACLE)
     _flat(scene, f"{root}/table", _table(east, north, stretch), _TABLE)
     _flat(scene, f"{root}/scale", _scale_bar(east, north), _MARKING)
     for sign in signs(arena, LETTER_HEIGHT * stretch):
@@ -78,9 +81,9 @@ def draw_backdrop(scene: viser.SceneApi) -> None:
     scene.set_background_image(_backdrop(), format="png")
 
 
-def _solid(obstacle: Obstacle) -> Mesh:
-    """An obstacle, standing on the floor."""
-    return prism([(float(x), float(y)) for x, y in corners(obstacle)], 0.0, OBSTACLE_HEIGHT)
+def _solid(obstacle: Obstacle, foot: float) -> Mesh:
+    """An obstacle, from the level of its foot (m) on."""
+    return prism([(float(x), float(y)) for x, y in corners(obstacle)], foot, OBSTACLE_HEIGHT)
 
 
 def _stretch(scenario: Scenario) -> float:

@@ -10,13 +10,13 @@ import math
 import queue
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from geswarm.rules import RuleSet, Vocabulary
 from geswarm.rules.names import name_errors
 from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on, vocabulary_of
 
+from .arena_commands import ArenaCommands
 from .campaigns import Campaigns
 from .comparison import RuleSetComparison
 from .document import RuleDocument, bare_rules
@@ -33,23 +33,13 @@ from .states import MachineDrawer
 from .swarm import ShownSwarm
 from .trace import SAMPLE_STEPS, PathTrace
 from .verdict import Judge, VerdictQuestion
-from .view import ArenaView, Kind, Shown
+from .view import ArenaView, Shown
 from .worth import WorthOfPieces, WorthQuestion
 
 Command: TypeAlias = Callable[["Session"], None]
 
 
-@dataclass(frozen=True)
-class Held:
-    """What the mouse holds, and where (m)."""
-
-    kind: Kind
-    index: int
-    x: float
-    y: float
-
-
-class Session(RuleCommands):
+class Session(RuleCommands, ArenaCommands):
     """The state that every panel shows.
 
     Attributes:
@@ -74,9 +64,6 @@ class Session(RuleCommands):
         machine: Their state machine, drawn.
         scenario_version: Grows when the scenario changes.
         shown: What is drawn besides robots and objects.
-        selected: Index of the robot that is looked at, if any.
-        following: The camera follows it.
-        held: What the mouse holds, if anything.
     """
 
     def __init__(
@@ -107,9 +94,8 @@ class Session(RuleCommands):
         self.insight = InsightFinder()
         self.machine = MachineDrawer()
         self.shown = Shown()
-        self.selected: int | None = None
-        self.following = False
-        self.held: Held | None = None
+        self.deselect()
+        self.release()
         self._swarm = ShownSwarm(self.world)
         self._commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.insight.look_into(self.document.version, rule_set, self.vocabulary)
@@ -329,39 +315,6 @@ class Session(RuleCommands):
         """The rules that the rival's name stands for now; its old ones if there are none."""
         offered = rivals_offered(self.document, self.runs, self.vocabulary)
         return offered.get(rival.name, rival.swarm.world.rule_set)
-
-    # --- commands: hands in the arena ---------------------------------------------------------
-
-    def select(self, robot: int) -> None:
-        """Look at a robot, or no longer if it is the one already looked at."""
-        if robot == self.selected:
-            self.deselect()
-        elif 0 <= robot < self.scenario.robots:
-            self.selected = robot
-
-    def deselect(self) -> None:
-        """Look at no robot in particular."""
-        self.selected = None
-        self.following = False
-
-    def follow(self, wanted: bool) -> None:
-        """Have the camera follow the selected robot, or stay where it is."""
-        self.following = wanted and self.selected is not None
-
-    def hold(self, kind: Kind, index: int, x: float, y: float) -> None:
-        """Take a robot or an object to a place and hold it there until it is released."""
-        number = self.scenario.robots if kind == "robot" else self.scenario.objects
-        if 0 <= index < number:
-            self.held = Held(kind, index, x, y)
-            self._keep_held()
-
-    def release(self) -> None:
-        """Let go of what is held."""
-        self.held = None
-
-    def _keep_held(self) -> None:
-        if (held := self.held) is not None:
-            self._swarm.place(held.kind, held.index, held.x, held.y)
 
     # --- following the rules -------------------------------------------------------------------
 

@@ -5,6 +5,7 @@ from geswarm.app import palette
 from geswarm.app.scene.arena import Arena
 from geswarm.app.state.view import ArenaView
 from geswarm.sim import load_scenario
+from geswarm.sim import load_scenario
 
 PAPER = load_scenario("paper")
 WIDE = PAPER.with_changes(width=21.0)
