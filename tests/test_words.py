@@ -5,8 +5,10 @@ import json
 import pytest
 
 from geswarm.cli import main
+from geswarm.evolution import RunConfig
+from geswarm.ge import Settings
 from geswarm.rules import load_rule_set, parse_json, parse_text, parse_yaml
-from geswarm.sim import load_scenario, vocabulary_of
+from geswarm.sim import load_scenario, parse_scenario, vocabulary_of
 
 AAC = vocabulary_of(load_scenario("aac"))
 NEW = ["aac", "aggregation", "homing", "xor"]
@@ -115,3 +117,16 @@ def test_less_is_better_where_the_objective_is_minimised(tmp_path, capsys):
     compared = json.loads(out(capsys, "compare", *arguments, "--json"))["results"]
     assert compared[0]["objective"] == walking["objective"]
     assert compared[1]["effect"] < 0.5
+
+
+def test_the_scenario_of_a_run_is_that_of_the_rules_in_its_directory(tmp_path, capsys):
+    text = "extends: xor\nregisters: [HUNGER(0..5)]\n"
+    config = RunConfig(parse_scenario(text, "mine"), Settings())
+    (tmp_path / "config.yaml").write_text(config.to_yaml())
+    rules = tmp_path / "best.rules"
+    rules.write_text('scenario "mine"\nrule if HUNGER < 5 do p = 0.1, HUNGER += 1')
+    assert "error" not in out(capsys, "check", str(rules))
+    rules.write_text(rules.read_text().replace("mine", "others"))
+    assert "written for scenario others; paper" in out(capsys, "check", str(rules), status=1)
+    (tmp_path / "config.yaml").write_text("geswarm: none")
+    out(capsys, "check", str(rules), status=1)

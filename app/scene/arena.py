@@ -73,7 +73,7 @@ class ArenaHandles:
 OnMade: TypeAlias = Callable[[Kind, tuple[viser.BatchedMeshHandle, ...]], None]
 
 
-class Arena:
+class ShownArena:
     """Draws a scenario once and a view of its world as often as wanted.
 
     Args:
@@ -120,7 +120,7 @@ class Arena:
             detail: How finely to draw them; None as finely as suits so many.
         """
         if (handles := self.handles) is None:
-            raise RuntimeError("Arena.sync: expected build() to be called before")
+            raise RuntimeError("ShownArena.sync: expected build() to be called before")
         if detail is None:
             detail = Detail.FULL if len(view.x) <= MOST_IN_FULL else Detail.SIMPLE
         if detail is not handles.detail:

@@ -13,7 +13,7 @@ from geswarm.sim import Scenario
 from ..state.playback import clock
 from ..state.score import figure, score
 from ..state.session import Session
-from .arena import Arena
+from .arena import ShownArena
 from .cameraman import Cameraman
 from .detail import Detail, DetailKeeper
 from .overlays import Overlays
@@ -38,8 +38,8 @@ class Stage:
     def __init__(self, session: Session) -> None:
         self.session = session
         self.pointer = Pointer(session.post)
-        self.arena = Arena("/arena", self.pointer.attach)
-        self.rival = Arena("/rival")
+        self.arena = ShownArena("/arena", self.pointer.attach)
+        self.rival = ShownArena("/rival")
         self.overlays = Overlays()
         self.cameraman = Cameraman()
         self.keeper = DetailKeeper()

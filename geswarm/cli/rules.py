@@ -163,16 +163,15 @@ def _argos_files(
 ) -> dict[str | None, str]:
     """The controller script and, if asked for, the experiment and its floor beside it."""
     from geswarm.exports import format_argos_experiment, format_argos_lua, format_floor
-    from geswarm.sim import load_scenario
 
-    scenario = load_scenario(words.scenario)
+    scenario = words.scenario
     files: dict[str | None, str] = {options.output: format_argos_lua(rule_set, scenario)}
     if options.experiment:
         if not options.output:
             raise UsageError("--experiment refers to the script by its name: give it one with -o")
         if not (scenario.arena.banded and scenario.nest and scenario.source and scenario.light):
             raise UsageError(
-                f"--experiment: the arena of {words.scenario} has no counterpart there, expected a "
+                f"--experiment: the arena of {words.name} has no counterpart there, expected a "
                 "rectangle with nest and source along its walls"
             )
         experiment = Path(options.experiment)

@@ -227,12 +227,13 @@
  */
 
 /**
- * The controller that every robot of the swarm runs: rules in order, R1 first.
+ * The controller that every robot of the swarm runs.
  * @typedef {object} RuleSet
- * @property {Rule[]} rules
- * @property {string} name
- * @property {string} comment
- * @property {Origin} origin
+ * @property {Rule[]} rules In order, R1 first.
+ * @property {string} name What it is called.
+ * @property {string} comment What it is for, in the author's words.
+ * @property {Origin} origin Where it came from.
+ * @property {string} scenario Name of the scenario in whose words it was written; empty for foraging's.
  */
 
 /**

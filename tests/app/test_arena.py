@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 
 from geswarm.app import palette
-from geswarm.app.scene.arena import Arena
+from geswarm.app.scene.arena import ShownArena
 from geswarm.app.state.view import ArenaView
-from geswarm.sim import load_scenario
 from geswarm.sim import load_scenario
 
 PAPER = load_scenario("paper")
@@ -24,7 +23,7 @@ def view(robots=3, objects=2, behaviour=0, x=0.0):
 
 @pytest.fixture
 def arena(server):
-    arena = Arena()
+    arena = ShownArena()
     arena.build(server.scene, PAPER)
     return arena
 
@@ -79,7 +78,7 @@ def test_another_scenario_replaces_the_old_one(arena, server):
 
 def test_sync_before_build_is_told():
     with pytest.raises(RuntimeError, match=r"expected build\(\)"):
-        Arena().sync(view())
+        ShownArena().sync(view())
 
 
 def test_view_is_not_kept(arena):
@@ -91,7 +90,7 @@ def test_view_is_not_kept(arena):
 
 def test_new_batches_are_told_once(server):
     made = []
-    arena = Arena("/arena", lambda kind, batches: made.append((kind, batches)))
+    arena = ShownArena("/arena", lambda kind, batches: made.append((kind, batches)))
     arena.build(server.scene, PAPER)
     for _ in range(3):
         arena.sync(view())

@@ -5,7 +5,7 @@ import imageio.v3 as imageio
 import numpy as np
 import pytest
 
-from geswarm.app.scene.arena import Arena
+from geswarm.app.scene.arena import ShownArena
 from geswarm.app.scene.camera import framing
 from geswarm.app.scene.cameraman import Cameraman
 from geswarm.app.scene.scenery import draw_backdrop, outer_points
@@ -93,7 +93,7 @@ FIRST_PICTURE = """
 @pytest.fixture
 def arena(server, page):
     page.add_init_script(FIRST_PICTURE)
-    arena = Arena()
+    arena = ShownArena()
     draw_backdrop(server.scene)
     arena.build(server.scene, PAPER)
     arena.cameraman = Cameraman()

@@ -10,9 +10,6 @@ from geswarm.app.scene.scenery import outer_points
 from geswarm.sim import load_scenario
 
 PAPER = load_scenario("paper")
-from geswarm.sim import load_scenario
-
-PAPER = load_scenario("paper")
 
 
 def picture(points, pose, aspect):

@@ -12,7 +12,7 @@ from websockets.sync.client import connect
 from geswarm.app.dashboard import open_dashboard
 from geswarm.app.panels.swarm_panel import detail_html
 from geswarm.app.protocol.base import FrameTime
-from geswarm.app.scene.arena import Arena
+from geswarm.app.scene.arena import ShownArena
 from geswarm.app.scene.detail import MOST_IN_FULL, Detail, DetailKeeper
 from geswarm.app.scene.pointer import Pointer, nearest
 from geswarm.app.server.channel import frame_told
@@ -86,7 +86,7 @@ def test_a_slow_browser_is_not_sent_more_than_it_draws():
 
 def test_an_arena_is_drawn_as_points_and_back(server):
     made = []
-    arena = Arena("/arena", lambda kind, _: made.append(kind))
+    arena = ShownArena("/arena", lambda kind, _: made.append(kind))
     arena.build(server.scene, PAPER)
     arena.sync(view())
     arena.sync(view(robots=5, objects=2, behaviour=1, x=1.0), POINTS)

@@ -15,13 +15,16 @@ from geswarm.app.scene.footbot import (
     puck,
     yaw_quaternions,
 )
+from geswarm.app.scene.lettering import painted, text_width
 from geswarm.app.scene.shapes import box, lathe, line, prism, rectangle
 
 PARTS = vars(footbot())
+WORDS = ["NEST", "SOURCE", "1 m"]
 MESHES = {
     **PARTS,
     **{f"distant {name}": mesh for name, mesh in vars(distant_footbot()).items()},
     "puck": puck(),
+    **{word: painted(word, 0.3) for word in WORDS},
     "line": line(((0, 0), (1, 0), (1, 0), (1, 1)), 0.1),
 }
 
@@ -43,6 +46,20 @@ def test_mesh_is_sound(name):
     assert mesh.faces.max() < len(mesh.vertices)
     a, b, c = corners(mesh).transpose(1, 0, 2)
     assert (np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-9).all(), "a face without area"
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_flat_meshes_are_seen_from_above(word):
+    a, b, c = corners(MESHES[word]).transpose(1, 0, 2)
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_letters_fit_their_box(word):
+    vertices = MESHES[word].vertices
+    stroke = 0.13 * 0.3
+    assert np.abs(vertices[:, 0]).max() <= text_width(word, 0.3) / 2 + stroke
+    assert np.abs(vertices[:, 1]).max() <= 0.15 + stroke
 
 
 def test_solids_have_outward_faces():

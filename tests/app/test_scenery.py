@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geswarm.app import palette
-from geswarm.app.scene.arena import Arena as DrawnArena
+from geswarm.app.scene.arena import ShownArena
 from geswarm.app.scene.ground import as_shown, floors, signs
 from geswarm.app.scene.lamps import lamp_of
 from geswarm.app.scene.lettering import painted, text_width
@@ -208,7 +208,7 @@ def test_lamps_are_in_their_places_or_on_their_bearing():
 
 def test_any_arena_is_drawn(server):
     scenario = load_scenario("aac")
-    drawn = DrawnArena()
+    drawn = ShownArena()
     for outline in OUTLINES.values():
         arena = Arena(
             outline,
