@@ -5,6 +5,6 @@ from geswarm.sim.library import parts_of
 from geswarm.sim.tables import compile_controllers
 
 
-def tables_for(controllers, scenario):
+def controllers_for(controllers, scenario):
     parts = parts_of(scenario)
     return compile_controllers(controllers, fails(scenario, parts), parts)

@@ -11,7 +11,7 @@ from geswarm.sim import batch
 from geswarm.sim.kernels import single
 from geswarm.sim.scenario import load_scenario
 from tests.sim import oracle
-from tests.sim.controllers import tables_for
+from tests.sim.controllers import controllers_for
 
 PAPER = load_scenario("paper")
 CROWDED = PAPER.with_changes(
@@ -36,12 +36,12 @@ def distance_to_oracle(group, twin, lane):
 @pytest.mark.parametrize("preset", ["hand-coded", "evo8"])
 @pytest.mark.parametrize("scenario", [PAPER, CROWDED], ids=lambda scenario: scenario.name)
 def test_lanes_follow_the_oracle(scenario, preset):
-    tables = tables_for([load_preset(preset)], scenario)
+    controllers = controllers_for([load_preset(preset)], scenario)
     simulations = np.array([(0, seed, 0, 0) for seed in range(16)])
-    group = batch.Group(tables, scenario, simulations)
+    group = batch.Group(controllers, scenario, simulations)
     ideal = scenario.with_changes(zone_miss=0.0)  # the table misses zones
     twins = [oracle.Oracle(ideal, seed) for seed in range(16)]
-    decide = oracle.by_table(tables)
+    decide = oracle.by_table(controllers.tables)
     for first in range(0, 300, 50):
         group.run(first, 50)
         for twin in twins:
@@ -57,7 +57,9 @@ def test_lanes_follow_the_oracle(scenario, preset):
 
 
 def test_robots_at_the_very_same_place_part():
-    group = batch.Group(tables_for([RuleSet()], PAPER), PAPER, np.zeros((1, 4), dtype=np.int64))
+    group = batch.Group(
+        controllers_for([RuleSet()], PAPER), PAPER, np.zeros((1, 4), dtype=np.int64)
+    )
     group.robots["x"][:2, 0], group.robots["y"][:2, 0] = 0.25, 0.5
     group.run(0, 5)
     x, y = group.robots["x"][:, 0], group.robots["y"][:, 0]
@@ -68,7 +70,9 @@ def test_robots_at_the_very_same_place_part():
 
 def test_a_target_of_length_zero_is_straight_ahead():
     alone = PAPER.with_changes(robots=1)
-    group = batch.Group(tables_for([RuleSet()], alone), alone, np.zeros((1, 4), dtype=np.int64))
+    group = batch.Group(
+        controllers_for([RuleSet()], alone), alone, np.zeros((1, 4), dtype=np.int64)
+    )
     robot = group.robots
     robot["x"], robot["y"], robot["cos"], robot["sin"] = 0.0, 0.0, 0.6, 0.8
     robot["walk_x"], robot["walk_y"], robot["walk_until"] = 0.0, 0.0, 1000

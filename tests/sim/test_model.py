@@ -12,7 +12,7 @@ from geswarm.sim import batch, footbot
 from geswarm.sim.scenario import load_scenario
 from geswarm.sim.world import World
 from tests.sim import oracle
-from tests.sim.controllers import tables_for
+from tests.sim.controllers import controllers_for
 from tests.strategies import any_probabilities, rules
 
 CROWDED = load_scenario("flexibility-5").with_changes(
@@ -93,11 +93,11 @@ def test_swarms_and_lanes_are_one_source(preset):
     """By table, robots side by side do exactly what simulations side by side do."""
     for scenario in (CROWDED, load_scenario("scalability-20"), load_scenario("paper")):
         scenario = scenario.with_changes(duration=100.0)
-        tables = tables_for([load_preset(preset)], scenario)
+        controllers = controllers_for([load_preset(preset)], scenario)
         simulations = np.array([(0, seed, 2, 1) for seed in range(5)])
         lanes, swarm = (np.zeros((5, 3)) for _ in range(2))
-        batch._run_side_by_side(tables, scenario, simulations, lanes, None)
-        batch._run_one_by_one(tables, scenario, simulations, swarm, None)
+        batch._run_side_by_side(controllers, scenario, simulations, lanes, None)
+        batch._run_one_by_one(controllers, scenario, simulations, swarm, None)
         assert lanes.sum() > 0
         np.testing.assert_array_equal(lanes, swarm)
 

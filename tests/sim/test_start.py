@@ -11,7 +11,7 @@ from geswarm.sim import World, batch, footbot, load_scenario
 from geswarm.sim.scenario import ScenarioError
 from geswarm.sim.scenario_checks import robots_in_nest
 from tests.sim import oracle
-from tests.sim.controllers import tables_for
+from tests.sim.controllers import controllers_for
 
 PAPER = load_scenario("paper")
 EVO8 = load_preset("evo8")
@@ -90,8 +90,8 @@ def test_a_large_swarm_that_is_dense():
 def test_lanes_start_apart():
     scenario = PAPER.with_changes(robots=24, width=1.5, nest=0.6)
     assert robots_in_nest(1.5, 4.2, 0.6) == 32
-    tables = tables_for([EVO8], scenario)
-    group = batch.Group(tables, scenario, np.array([(0, seed, 0, 0) for seed in range(64)]))
+    controllers = controllers_for([EVO8], scenario)
+    group = batch.Group(controllers, scenario, np.array([(0, seed, 0, 0) for seed in range(64)]))
     for lane in range(64):
         x, y = group.robots["x"][:, lane], group.robots["y"][:, lane]
         assert_apart_in_the_nest(scenario, x, y)

@@ -69,7 +69,7 @@ GATHERING = parts_of(
 )
 ALONE = parts_of(
     "alone",
-    percepts=(objects.HAS_OBJECT,),
+    percepts=(),
     behaviours=(stop,),
     first=stop,
     registers=(objects.WANT_OBJECT,),
@@ -77,7 +77,7 @@ ALONE = parts_of(
 )
 WRONG = parts_of(
     "wrong",
-    percepts=(objects.HAS_OBJECT,),
+    percepts=(),
     behaviours=(goes_nowhere,),
     first=goes_nowhere,
     registers=(objects.WANT_OBJECT,),

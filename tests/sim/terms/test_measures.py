@@ -9,7 +9,7 @@ from geswarm.rules import load_preset
 from geswarm.sim import World, batch, evaluate, parts_of
 from geswarm.sim.batch import runs_side_by_side
 from tests.sim.assembly import ground_twin
-from tests.sim.controllers import tables_for
+from tests.sim.controllers import controllers_for
 from tests.sim.terms.scenarios import REMEMBERING
 
 AREAS = ("black", "white")
@@ -64,8 +64,8 @@ def test_a_world_measures_what_can_be_counted(robots, seed):
 @given(st.integers(0, 2**32), st.lists(st.integers(1, 3), min_size=10, max_size=10))
 @settings(max_examples=3, deadline=None, phases=[Phase.generate])
 def test_simulations_side_by_side_measure_what_can_be_counted(seed, parts):
-    tables = tables_for([RULES], REMEMBERING)
-    group = batch.Group(tables, REMEMBERING, np.array([(0, seed, 0, run) for run in range(3)]))
+    controllers = controllers_for([RULES], REMEMBERING)
+    group = batch.Group(controllers, REMEMBERING, np.array([(0, seed, 0, run) for run in range(3)]))
     first, counted = 0, [Counted() for _ in range(3)]
     for part in parts:
         for _ in range(part):
