@@ -13,7 +13,7 @@ from geswarm import __version__
 from geswarm.evolution.composition import Composition
 from geswarm.ge import Individual, Stopped
 from geswarm.rules import Rule
-from geswarm.sim import EvaluationStopped, Scenario, Simulation, Stop, evaluate
+from geswarm.sim import EvaluationStopped, Scenario, Simulation, Stop, can_run, evaluate
 
 _SHARE_ROBOT_STEPS = 8_000_000  # what is sent to an executor at once: a fraction of a second's work
 _PATIENCE = 0.2  # seconds between two looks at `stop` while an executor works
@@ -57,7 +57,8 @@ class ScenarioFitness:
             Stopped: `stop` returned True.
             EvaluationError: The executor failed.
         """
-        phenotypes = list(dict.fromkeys(one.phenotype or "" for one in individuals))
+        told = dict.fromkeys(one.phenotype or "" for one in individuals)
+        phenotypes = [phenotype for phenotype in told if self._can_run(phenotype)]
         position = {phenotype: at for at, phenotype in enumerate(phenotypes)}
         todo = [
             Simulation(
@@ -67,11 +68,19 @@ class ScenarioFitness:
                 replicate,
             )
             for one in individuals
+            if (one.phenotype or "") in position
             for replicate in range(self.evaluations)
         ]
         gains = (self._here if self.executor is None else self._elsewhere)(phenotypes, todo)
-        per_individual = gains.reshape(len(individuals), self.evaluations)
-        return [float(mean) for mean in per_individual.mean(axis=1)]
+        means = iter(gains.reshape(-1, self.evaluations).mean(axis=1).tolist())
+        found = [next(means) if (i.phenotype or "") in position else None for i in individuals]
+        worst = min([0.0, *(mean for mean in found if mean is not None)])
+        return [worst if mean is None else mean for mean in found]
+
+    def _can_run(self, phenotype: str) -> bool:
+        """Whether the simulator has room for the rules; those it has not are worth the least."""
+        composition = Composition.of(self.scenario, self.frozen)
+        return can_run(composition.rule_set(phenotype), self.scenario)
 
     def _here(self, phenotypes: list[str], todo: list[Simulation]) -> npt.NDArray[np.float64]:
         composition = Composition.of(self.scenario, self.frozen)

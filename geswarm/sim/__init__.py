@@ -29,7 +29,7 @@ PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
 """
 
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, evaluate
+from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, can_run, evaluate
 from geswarm.sim.cores import available_cores
 from geswarm.sim.library import TermError, parts_of, vocabulary_of
 from geswarm.sim.objective import Objective, ObjectiveError
@@ -60,6 +60,7 @@ __all__ = [
     "WorldState",
     "available_cores",
     "can_go_on",
+    "can_run",
     "evaluate",
     "is_compiled",
     "load_scenario",

@@ -15,6 +15,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.rules.findings import RuleSetError
+from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import OBJECT, Records, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
@@ -23,6 +25,7 @@ from geswarm.sim.encoding import fails, fill_robots, is_wide, numbers_by_name, s
 from geswarm.sim.kernels.state import LANES
 from geswarm.sim.library import parts_of
 from geswarm.sim.objective import OF_THE_RUN
+from geswarm.sim.program import Instances
 from geswarm.sim.scenario import Scenario
 from geswarm.sim.swarm import Swarm
 from geswarm.sim.tables import Controller, Controllers, compile_controllers
@@ -104,6 +107,15 @@ def evaluate(
         _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
     measures = {each.name: values[:, at].copy() for at, each in enumerate(parts.measures)}
     return BatchResult(fitness_of(scenario, measures), measures)
+
+
+def can_run(rule_set: RuleSet, scenario: Scenario) -> bool:
+    """Whether rules in a scenario's words are within the simulator's limits."""
+    try:
+        Instances.of(rule_set, parts_of(scenario))
+    except RuleSetError:
+        return False
+    return True
 
 
 def fitness_of(scenario: Scenario, measures: Mapping[str, Values | float]) -> Values:

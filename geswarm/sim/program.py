@@ -42,17 +42,16 @@ class Instances:
 
     @classmethod
     def of(cls, rule_set: RuleSet, parts: Parts, before: Iterable[Term] = ()) -> Instances:
-        """Those that a scenario has without arguments, those before, those that rules mention.
+        """Those that a scenario has without arguments, those before, those that actions start.
 
         Raises:
             RuleSetError: They are too many.
         """
-        mentioned: list[Term] = []
+        started: list[Term] = []
         for rule in rule_set.rules if parts.arguments else ():
-            mentioned += rule.behaviours
             for action in rule.actions:
-                mentioned += action.behaviours
-        terms = tuple(dict.fromkeys((*parts.plain_behaviours, *before, *mentioned)))
+                started += action.behaviours
+        terms = tuple(dict.fromkeys((*parts.plain_behaviours, *before, *started)))
         if len(terms) > ROW_BEHAVIOURS:
             raise RuleSetError(
                 [
@@ -79,11 +78,9 @@ class Instances:
         """The arguments of each, float32, shape (instances, most arguments)."""
         rows = np.zeros((len(self.terms), self.parts.arguments), dtype=np.float32)
         for at, term in enumerate(self.terms):
-            entry = self.parts.behaviours[self.parts.kinds[term.name]].word
-            for k, (argument, value) in enumerate(
-                zip(entry.arguments, term.arguments, strict=True)
-            ):
-                rows[at, k] = argument.options.index(value) if isinstance(value, str) else value  # type: ignore[attr-defined]
+            word = self.parts.behaviours[self.parts.kinds[term.name]].word
+            for k, (argument, value) in enumerate(zip(word.arguments, term.arguments, strict=True)):
+                rows[at, k] = argument.number(value)
         return rows
 
     @property
@@ -95,8 +92,12 @@ class Instances:
         )
 
     def mask(self, behaviours: Iterable[Term]) -> int:
-        """Those in which a rule may be active; none means any."""
-        return sum(1 << self.number(term) for term in set(behaviours) or self.terms)
+        """Those in which a rule may be active; none means any.
+
+        What no action starts is left out: no robot ever executes it.
+        """
+        wanted = set(behaviours)
+        return sum(1 << at for at, term in enumerate(self.terms) if not wanted or term in wanted)
 
     def effect(self, action: Action) -> tuple[int, Change]:
         """(instance to change to or -1, change of registers)."""

@@ -30,7 +30,7 @@ import numpy as np
 
 from geswarm.sim.kernels.jit import inlined
 
-ROW_BEHAVIOURS = 16
+ROW_BEHAVIOURS = 32
 """Rows of a class; the most behaviours that a rule set can have."""
 MOST_OUTCOMES = 128
 """Of one row."""
