@@ -21,8 +21,9 @@ from geswarm.evolution import (
     EvolutionRun,
     RunConfig,
     cluster_executor,
+    preset_for,
 )
-from geswarm.ge import GenerationRecord, Settings, SettingsError, StoreError, fall_in_words
+from geswarm.ge import GenerationRecord, SettingsError, StoreError, fall_in_words
 from geswarm.sim import ScenarioError, load_scenario
 
 from .run_directory import new_run_directory
@@ -86,7 +87,7 @@ def _open_run(options: argparse.Namespace) -> EvolutionRun:
     }
     scenario = load_scenario(options.scenario or "paper")
     config = RunConfig(
-        scenario, Settings.preset(options.preset or "paper", **given), options.seed or 0
+        scenario, preset_for(scenario, options.preset or "paper", **given), options.seed or 0
     )
     directory = Path(options.out) if options.out is not None else new_run_directory(config)
     return EvolutionRun.create(config, directory)

@@ -65,7 +65,7 @@ def plan_message(plan: RunPlan, scenario: Scenario, rule_set: RuleSet) -> wire.P
     return wire.PlanMessage(
         preset=plan.preset,
         values=dict(plan.values),
-        changed=tuple(plan.changed),
+        changed=tuple(plan.changed(scenario)),
         idle=tuple(idle_settings(plan.values)),
         findings=plan.findings(scenario, rule_set),
         seed=plan.seed,

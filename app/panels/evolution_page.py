@@ -96,7 +96,7 @@ class EvolutionPage(WatchedPage):
 
     def _preset(self, message: asked.ChoosePreset) -> None:
         runs = self.session.runs
-        runs.plan = runs.plan.with_preset(message.name)
+        runs.plan = runs.plan.with_preset(message.name, self.session.scenario)
 
     def _plan(self, message: asked.SetPlan) -> None:
         runs = self.session.runs

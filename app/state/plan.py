@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from geswarm.evolution import Composition, InjectionError, RunConfig
+from geswarm.evolution import Composition, InjectionError, RunConfig, preset_for
 from geswarm.ge import PRESETS, Settings, SettingsError
 from geswarm.rules import Rule, RuleSet
 from geswarm.sim import Scenario
@@ -41,14 +41,19 @@ class RunPlan:
     frozen: frozenset[Rule] = frozenset()
     from_table: bool = False
 
-    def with_preset(self, name: str) -> RunPlan:
-        """With all values of a preset.
+    @classmethod
+    def of(cls, scenario: Scenario) -> RunPlan:
+        """The plan of somebody who has said nothing yet."""
+        return cls(values=asdict(preset_for(scenario)))
+
+    def with_preset(self, name: str, scenario: Scenario) -> RunPlan:
+        """With all values of a preset, as they suit a scenario.
 
         Raises:
             RunPlanError: There is none of that name.
         """
         try:
-            return replace(self, preset=name, values=asdict(Settings.preset(name)))
+            return replace(self, preset=name, values=asdict(preset_for(scenario, name)))
         except SettingsError as error:
             raise RunPlanError(str(error)) from error
 
@@ -81,10 +86,9 @@ class RunPlan:
             kept |= {now for was, now in zip(old, new, strict=True) if was in self.frozen - kept}
         return self if kept == self.frozen else replace(self, frozen=kept)
 
-    @property
-    def changed(self) -> list[str]:
+    def changed(self, scenario: Scenario) -> list[str]:
         """The settings in which it differs from its preset."""
-        preset = asdict(Settings.preset(self.preset))
+        preset = asdict(preset_for(scenario, self.preset))
         return [name for name, value in self.values.items() if value != preset[name]]
 
     def findings(self, scenario: Scenario, rule_set: RuleSet) -> dict[str, str]:

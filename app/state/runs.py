@@ -40,9 +40,15 @@ class Runs:
         chosen: The individual looked at, if any.
     """
 
-    def __init__(self, evolution: EvolutionThread, rule_set: RuleSet, folder: Path = RUNS) -> None:
+    def __init__(
+        self,
+        evolution: EvolutionThread,
+        rule_set: RuleSet,
+        scenario: Scenario,
+        folder: Path = RUNS,
+    ) -> None:
         self.evolution = evolution
-        self.plan = RunPlan()
+        self.plan = RunPlan.of(scenario)
         self.kept: tuple[RunSummary, ...] = ()
         self.compared: dict[str, int] = {}
         self.look: Look | None = None
@@ -128,6 +134,10 @@ class Runs:
         )
 
     # --- the next run -------------------------------------------------------------------------
+
+    def move_to(self, scenario: Scenario) -> None:
+        """Plan for another scenario from now on."""
+        self.plan = RunPlan.of(scenario)
 
     def follow(self, rule_set: RuleSet) -> None:
         """The rules of the table have changed."""

@@ -85,7 +85,7 @@ class Session(RuleCommands, ArenaCommands):
         self.past = PastRuns()
         self.playback = Playback(CONTROL_STEP)
         self.evolution = evolution
-        self.runs = Runs(evolution, rule_set)
+        self.runs = Runs(evolution, rule_set, scenario)
         self.comparison = RuleSetComparison(evolution.workers, scenario)
         self.campaigns = Campaigns(evolution)
         self.scenario_version = 1
@@ -249,6 +249,7 @@ class Session(RuleCommands, ArenaCommands):
         """Have rules in other words in place of those edited so far."""
         self.document.begin_anew(rule_set)
         self.comparison.move_to(self.scenario)
+        self.runs.move_to(self.scenario)
         self.runs.follow(rule_set)
         self.insight.look_into(self.document.version, rule_set, self.vocabulary)
         self.machine.draw(rule_set, self.vocabulary)

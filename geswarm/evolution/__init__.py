@@ -14,6 +14,7 @@ from geswarm.evolution.composition import Composition, InjectionError
 from geswarm.evolution.fitness import EvaluationError, ScenarioFitness
 from geswarm.evolution.grammar import rule_grammar
 from geswarm.evolution.population import Member, Population
+from geswarm.evolution.presets import preset_for
 from geswarm.evolution.run import EvolutionRun, RunConfig, RunConfigError, version_remarks
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "RunConfigError",
     "ScenarioFitness",
     "cluster_executor",
+    "preset_for",
     "rule_grammar",
     "version_remarks",
 ]

@@ -56,6 +56,8 @@ class Scenario:
         avoidance_gain: Weight of the avoidance vector.
         avoidance_range: Distance between centres at which robots keep away from each other (m);
             None for `rab_range`.
+        evaluations: By how many runs evolution judges where its preset says one: more where runs
+            are short, or differ much.
         preconditions: Names of the percepts on offer.
         behaviours: Names of the behaviours on offer.
         registers: Names of the internal states on offer.
@@ -87,6 +89,7 @@ class Scenario:
     rab_range: float = 0.5
     avoidance_gain: float = 1.0
     avoidance_range: float | None = None
+    evaluations: int = 1
     preconditions: tuple[str, ...]
     behaviours: tuple[str, ...]
     registers: tuple[str, ...] = ()

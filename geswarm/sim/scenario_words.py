@@ -119,6 +119,9 @@ def _avoidance_problem(value: object) -> str | None:
     return None if value is None else _DISTANCE.problem(value)
 
 
+_EVALUATIONS = Parameter(int, 1, 1000)
+
+
 def _initial_problem(name: object) -> str | None:
     return None if name == "" else term_problem(name)
 
@@ -137,6 +140,7 @@ def _terms_problem(path: object) -> str | None:
 
 WORDS: Mapping[str, Callable[[object], str | None]] = {
     "avoidance_range": _avoidance_problem,
+    "evaluations": _EVALUATIONS.problem,
     "preconditions": partial(names_problem, problem=term_problem, least=0),
     "behaviours": partial(names_problem, problem=declared_problem, least=1),
     "registers": partial(names_problem, problem=declared_problem, least=0),

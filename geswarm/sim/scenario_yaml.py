@@ -49,6 +49,8 @@ def _everything(scenario: Scenario) -> dict[str, Any]:
             tree[key] = list(value) if key == "random_walk" else value
     if scenario.avoidance_range is not None:
         tree["avoidance_range"] = scenario.avoidance_range
+    if scenario.evaluations != 1:
+        tree["evaluations"] = scenario.evaluations
     for key in ("preconditions", "behaviours", "registers", "measures", "probabilities"):
         tree[key] = list(getattr(scenario, key))
     tree["initial_behaviour"] = scenario.initial_behaviour

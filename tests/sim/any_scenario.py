@@ -94,6 +94,7 @@ def scenarios(draw):
             random_walk=tuple(walk),
             max_speed=draw(st.floats(0.01, 0.5)),
             avoidance_range=draw(st.none() | st.floats(0.1, 1)),
+            evaluations=draw(st.integers(1, 20)),
             preconditions=draw(st.lists(terms, max_size=4, unique=True)),
             behaviours=draw(st.lists(terms, min_size=1, max_size=4, unique=True)),
             registers=draw(st.lists(terms, max_size=3, unique=True)),
