@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field
 
 from geswarm.rules import FORAGING, BehaviourChange
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS
 
 RADIUS, WHEEL_BASE, CONTROL_STEP = 0.085, 0.14, 0.1
 WORD = 0xFFFFFFFF
@@ -275,7 +276,7 @@ def by_table(tables, number=0):
     def decide(robot, now):
         zones = robot.percepts["ON_NEST"] + 2 * robot.percepts["ON_SOURCE"]
         code = zones + 4 * robot.carried + 8 * robot.states["WANT_OBJECT"]
-        row = first_row + 16 * int(tables.classes[first_code + code])
+        row = first_row + ROW_BEHAVIOURS * int(tables.classes[first_code + code])
         first_slot, slot_bits = divmod(int(tables.rows[row + names.index(robot.behaviour)]), 8)
         slot, rest = divmod(int(draw(robot.key, now, OUTCOME) * 2**32), 2 ** (32 - slot_bits))
         slot += first_slot

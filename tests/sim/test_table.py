@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, Space, StateChange
 from geswarm.sim import load_scenario, parts_of
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS
 from geswarm.sim.tables import compile_controllers
 from tests.strategies import any_probabilities, plain_rule_sets
 
@@ -19,7 +20,7 @@ misses = st.sampled_from([0.0, 0.08, 1.0])
 def drawn(tables, number, code, behaviour, state):
     """Probability of each (behaviour, state, restart) that a table draws."""
     first_code, first_row, _ = tables.begins[number]
-    row = first_row + 16 * int(tables.classes[first_code + code]) + behaviour
+    row = first_row + ROW_BEHAVIOURS * int(tables.classes[first_code + code]) + behaviour
     first_slot, bits = divmod(int(tables.rows[row]), 8)
     found = np.zeros((3, 4, 2))
     for slot in range(first_slot, first_slot + (1 << bits)):
@@ -64,7 +65,7 @@ def test_rules_and_their_dense_table_draw_alike(rule_sets, zone_miss):
         rows = []
         for tables in (by_rules, by_table):
             first_code, first_row, _ = tables.begins[number]
-            row = first_row + 16 * int(tables.classes[first_code + code]) + behaviour
+            row = first_row + ROW_BEHAVIOURS * int(tables.classes[first_code + code]) + behaviour
             slot, bits = divmod(int(tables.rows[row]), 8)
             outcomes = tables.outcomes[2 * slot :][: 2 << bits].astype(np.int64)
             after = state & ~(outcomes >> 6 & 255) | outcomes >> 14 & 255
