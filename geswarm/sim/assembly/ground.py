@@ -227,9 +227,9 @@ def keep_inside(source: Source) -> None:
     for surface in _in_the_way(source):
         source(f"gap, normal_x, normal_y = {surface}\nmore = geometry.above_zero({radius} - gap)")
         source("x, y = fma(more, normal_x, x), fma(more, normal_y, y)")
-    source("robot.x[lane], robot.y[lane] = x, y")
     if not ground.is_plain:
         _go_back(source)
+    source("robot.x[lane], robot.y[lane] = x, y")  # once, or LLVM fears that the loop meets itself
 
 
 def _go_back(source: Source) -> None:
@@ -250,7 +250,8 @@ def _go_back(source: Source) -> None:
         source("moved2 = fma(moved_x, moved_x, moved_y * moved_y)")
         source("goes_back = I(goes_back | I(moved2 >= too_far * too_far))")
     for field in fields(ground, source.layout.wide):
-        now = f"robot.{field.removeprefix('before_')}[lane]"
+        now = field.removeprefix("before_")
+        now = now if now in ("x", "y") else f"robot.{now}[lane]"
         source(f"{now} = robot.{field}[lane] if goes_back != I(0) else {now}")
 
 

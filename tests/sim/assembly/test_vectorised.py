@@ -15,6 +15,8 @@ SCALAR = (
     "= rows[work.row[lane]]",
     "= thresholds[work.place[lane]]",
     "= outcomes[work.place[lane]]",
+    "= kinds[work.place[lane]]",
+    "= arguments[work.place[lane], 0]",
     "decisions[work.place[lane]] +=",
     "work.touch[lane] = I(0)",  # becomes a call of memset
     "if work.happens[lane]:",  # rare
@@ -50,6 +52,17 @@ def loops_that_are_not_vectorised(*what):
 @pytest.mark.parametrize("layout", ["lanes", "swarm"])
 def test_every_loop_over_lanes_is_vectorised(layout):
     assert loops_that_are_not_vectorised(layout) == []
+
+
+@pytest.mark.slow
+def test_every_loop_of_aac_is_vectorised():
+    assert loops_that_are_not_vectorised("lanes", "aac") == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("scenario", ["aggregation", "homing", "xor"])
+def test_every_loop_of_the_other_scenarios_is_vectorised(scenario):
+    assert loops_that_are_not_vectorised("lanes", scenario) == []
 
 
 @pytest.mark.slow
