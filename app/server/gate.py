@@ -31,6 +31,8 @@ from websockets.http11 import Request, Response
 from ..protocol.reading import MAX_MESSAGE_BYTES
 from .access import Access
 from .channel import Channel
+from .guide import FOLDER as GUIDE
+from .guide import guide_page
 from .listening import ServerError, free_port
 from .responses import CONTENT_TYPES, PROTECTION, plain, refused, response
 from .viewer_page import served
@@ -125,7 +127,7 @@ class Gate:
         self.access = access
         self.made = {f"/{page}/files/": files for page, files in made.items()}
         self.sockets = {f"/{page}/socket": channel for page, channel in pages.items()}
-        self.folders = [static / name for name in (COMMON, *pages)]
+        self.folders = [static / name for name in (COMMON, GUIDE, *pages)]
         names = "|".join(re.escape(folder.name) for folder in self.folders)
         self.ours = re.compile(rf".*(/(?:{names})/.+)", re.DOTALL)
         self.told: set[str] = set()
@@ -327,13 +329,20 @@ def static_response(folder: Path, path: str, host: str) -> Response:
     """A file of `folder`, whose name the path begins with; only the names in it are known.
 
     Args:
-        folder: Flat folder; files with a suffix in CONTENT_TYPES are served, and nothing else.
+        folder: Flat folder; files with a suffix in CONTENT_TYPES are served, and nothing else but
+            the pages of the guide.
         path: Decoded path of the request, `/<folder>/<file>`.
         host: `host:port` that the page may open websockets to.
     """
-    known = {entry.name: entry for entry in folder.iterdir() if entry.suffix in CONTENT_TYPES}
-    entry = known.get(path.removeprefix(f"/{folder.name}/"))
-    if entry is None or not entry.is_file():
+    name = path.removeprefix(f"/{folder.name}/")
+    page = guide_page(folder, name.removesuffix(".html")) if folder.name == GUIDE else None
+    known = {entry.name: entry for entry in folder.glob("*") if entry.suffix in CONTENT_TYPES}
+    entry = known.get(name)
+    if page is not None:
+        suffix, body = ".html", page.encode()
+    elif entry is not None and entry.is_file():
+        suffix, body = entry.suffix, entry.read_bytes()
+    else:
         return plain(HTTPStatus.NOT_FOUND, "not found")
     policy = (
         f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
@@ -342,7 +351,7 @@ def static_response(folder: Path, path: str, host: str) -> Response:
     )
     return response(
         HTTPStatus.OK,
-        CONTENT_TYPES[entry.suffix],
-        entry.read_bytes(),
+        CONTENT_TYPES[suffix],
+        body,
         {"Content-Security-Policy": policy},
     )

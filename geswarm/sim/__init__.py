@@ -3,7 +3,7 @@
 Many runs to their end, each with random numbers of its own:
 
 >>> from geswarm.rules import ControlTable, StateMachine, load_rule_set
->>> from geswarm.sim import Simulation, World, evaluate, load_scenario
+>>> from geswarm.sim import Simulation, World, evaluate, load_scenario, vocabulary_of
 >>> evo8, hand_coded = load_rule_set("evo8"), load_rule_set("hand-coded")
 >>> short = load_scenario("paper").with_changes(duration=1000.0)
 >>> runs = [Simulation(table, seed=1, replicate=n) for table in (0, 1) for n in range(20)]
@@ -26,6 +26,14 @@ PHOTOTAXIS to RANDOM_WALK when not ON_NEST and not HAS_OBJECT: p = 0.05, 2 s
 >>> world.step(3000)
 >>> world.time
 600.0
+
+Any scenario, with words, measures and an objective of its own:
+
+>>> aac = load_scenario("aac")
+>>> by_hand = load_rule_set(aac.reference, vocabulary_of(aac))
+>>> result = evaluate([by_hand], aac, [Simulation(0, seed=1, replicate=n) for n in range(20)])
+>>> aac.objective.label, bool(result.fitness.mean() > 6000)
+('on_black (robot-steps)', True)
 """
 
 from geswarm.rules.model import CONTROL_STEP

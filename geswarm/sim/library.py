@@ -16,6 +16,9 @@ from geswarm.rules.model import Value
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim.arena import Arena, HalfPlane, Plain
 from geswarm.sim.arena_geometry import overlap
+from geswarm.sim.assembly.kernel import source_of
+from geswarm.sim.assembly.source import Layout
+from geswarm.sim.encoding import numbers_by_name
 from geswarm.sim.own_terms import OwnTerms, load_own_terms
 from geswarm.sim.scenario import Scenario
 from geswarm.sim.terms import avoidance, light, objects, robots, walk
@@ -168,7 +171,18 @@ def parts_of(scenario: Scenario) -> Parts:
 
 @lru_cache(maxsize=256)
 def _parts_of(scenario: Scenario, version: str) -> Parts:
-    return _parts(Design.of(scenario, version))
+    parts = _parts(Design.of(scenario, version))
+    if own := load_own_terms(scenario.terms).module:
+        _, names = source_of(parts, Layout())
+        numbers_by_name(scenario, names, parts)  # what components name shows in the source
+        _require_sound(parts, own)
+    return parts
+
+
+@lru_cache(maxsize=64)
+def _require_sound(parts: Parts, module: str) -> None:
+    for component in own_components(parts, module):
+        require_sound(component, parts)
 
 
 def vocabulary_of(scenario: Scenario) -> Vocabulary:
@@ -199,7 +213,7 @@ def _parts(design: Design) -> Parts:
             f"{design.initial_behaviour}; on offer are {', '.join(design.behaviours)}",
             design.initial_behaviour,
         )
-    parts = Parts(
+    return Parts(
         name=vocabulary.name or "scenario",
         vocabulary=vocabulary,
         percepts=(*percepts, *seen),
@@ -213,9 +227,6 @@ def _parts(design: Design) -> Parts:
         effects=effects,
         measures=tuple(measures_of(design, own)),
     )
-    for component in own_components(parts, own.module):
-        require_sound(component, parts)
-    return parts
 
 
 def _value_of(register: Register) -> Callable[[int], Value]:

@@ -75,7 +75,11 @@ def require_sound(component: Component, parts: Parts) -> None:
 def plain(function: Callable[..., Any] | None) -> Callable[..., Any]:
     """A component's function as Python runs it, with what it calls."""
     assert isinstance(function, types.FunctionType)
-    known = {name: _plain(value) for name, value in function.__globals__.items()}
+    named = function.__code__.co_names
+    known = {
+        name: _plain(value) if name in named else value
+        for name, value in function.__globals__.items()
+    }
     return types.FunctionType(
         function.__code__, known, function.__name__, function.__defaults__, function.__closure__
     )
@@ -96,7 +100,8 @@ def _require_straight(component: Component) -> None:
     except (OSError, SyntaxError):  # typed at a prompt: there is nothing to look at
         return
     code = component.function.__code__
-    for node in ast.walk(tree):
+    body = [line for part in tree.body for line in getattr(part, "body", [part])]
+    for node in (node for line in body for node in ast.walk(line)):  # not what decorates it
         what = _BRANCHES.get(type(node))
         if what is not None:
             line = code.co_firstlineno + getattr(node, "lineno", 1) - 1

@@ -110,8 +110,8 @@ function aboutWords({ scenario, preset, seed, frozen, version }) {
 }
 
 function ownLine({ phase, about }, done, generations) {
-  if (phase === "IDLE") return "Evolves foraging rules in the scenario of the arena, while the swarm goes on.";
-  if (phase === "RUNNING" && !done) return "Running hand-coded and EVO 8 for comparison…";
+  if (phase === "IDLE") return "Evolves rules in the scenario of the arena, while the swarm goes on.";
+  if (phase === "RUNNING" && !done) return "Running the rules to compare with…";
   return `Generation ${done} of ${generations} · ${WORDS[phase]}${figures(about)}`;
 }
 

@@ -1,4 +1,4 @@
-/** The keys, in a window over the page. */
+/** The keys, in a window over the page, and where more is written. */
 
 import { dialog } from "../common/dialog.js";
 import { h, identify } from "../common/dom.js";
@@ -20,6 +20,13 @@ const KEYS = [
   ["?", "Show these keys"],
 ];
 
+const GUIDE = [
+  ["scenarios", "Scenario files"],
+  ["terms", "All terms"],
+  ["own-terms", "Own terms"],
+  ["commands", "Commands"],
+];
+
 export class Help {
   constructor() {
     this.node = dialog("help-keys", "Keys");
@@ -30,7 +37,11 @@ export class Help {
       ]);
       return [h("dt", {}, ...caps), h("dd", {}, does)];
     });
-    this.node.append(h("dl", { class: "keys" }, ...rows));
+    const pages = GUIDE.flatMap(([name, title]) => [
+      " · ",
+      h("a", { href: `../guide/${name}.html${location.search}`, target: "_blank" }, title),
+    ]);
+    this.node.append(h("dl", { class: "keys" }, ...rows), h("p", { class: "guide" }, "Guide", ...pages));
     this.button = h("button", { type: "button", class: "quiet key", title: "Keys (?)" }, "?");
     this.button.addEventListener("click", () => this.open());
     identify(this.button, "help", "Show the keys");
