@@ -79,7 +79,7 @@ def _evolve_and_report(
 
 def _open_run(options: argparse.Namespace) -> EvolutionRun:
     if options.resume is not None:
-        return EvolutionRun.resume(options.resume, options.generations)
+        return EvolutionRun.resume(options.resume, options.generations, with_code=True)
     given = {
         name: getattr(options, name)
         for name in ("generations", "population", "evaluations")

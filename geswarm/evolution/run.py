@@ -83,8 +83,8 @@ class RunConfig:
         return yaml.safe_dump(document, sort_keys=False, default_flow_style=None)
 
     @classmethod
-    def from_yaml(cls, text: str) -> RunConfig:
-        """Read what `to_yaml` wrote.
+    def from_yaml(cls, text: str, with_code: bool = False) -> RunConfig:
+        """Read what `to_yaml` wrote; `with_code`: whether it may name terms of one's own.
 
         Raises:
             RunConfigError: It is something else.
@@ -105,7 +105,8 @@ class RunConfig:
                         began = f" (of GESwarm {version}; this is {__version__})"
                     if unknown := [str(key) for key in document if key not in _CONFIG_KEYS]:
                         raise ValueError(f"unknown: {', '.join(unknown)}")
-                    where = parse_scenario(yaml.safe_dump(scenario), name)
+                    folder = Path() if with_code else None
+                    where = parse_scenario(yaml.safe_dump(scenario), name, folder)
                     known = vocabulary_of(where)
                     return cls(
                         scenario=where,
@@ -160,11 +161,15 @@ class EvolutionRun:
         return cls(config, store, engine)
 
     @classmethod
-    def resume(cls, directory: str | Path, generations: int | None = None) -> EvolutionRun:
+    def resume(
+        cls, directory: str | Path, generations: int | None = None, with_code: bool = False
+    ) -> EvolutionRun:
         """Continue a run exactly where its last complete generation ended.
 
         Args:
             directory: Where it is kept.
+            with_code: Whether its configuration may name code, the terms of one's own; without it
+                only what a scenario's file has named before.
             generations: How many it is to have from now on, at least as many as are done; as many
                 as it was to have unless given. They decide nothing before its end.
 
@@ -172,7 +177,7 @@ class EvolutionRun:
             StoreError: There is no run, or it cannot be used; or another process is at work on it.
             SettingsError: So many generations cannot be.
         """
-        run = cls._open(directory)
+        run = cls._open(directory, with_code=with_code)
         try:
             if generations is not None:
                 run.extend(generations)
@@ -192,10 +197,12 @@ class EvolutionRun:
         return cls._open(directory, read_only=True)
 
     @classmethod
-    def _open(cls, directory: str | Path, read_only: bool = False) -> EvolutionRun:
+    def _open(
+        cls, directory: str | Path, read_only: bool = False, with_code: bool = False
+    ) -> EvolutionRun:
         store = RunStore.open(directory, read_only)
         try:
-            config = RunConfig.from_yaml(store.config)
+            config = RunConfig.from_yaml(store.config, with_code)
             state = store.checkpoint()
             identity = config.composition.behaviour
             parameters = config.composition.grammar, config.settings, config.seed

@@ -155,6 +155,10 @@ WORDS: Mapping[str, Callable[[object], str | None]] = {
 """What is wrong with a value of each field that is neither a number nor the arena, or None."""
 
 
+_NAMED_BY_FILES: set[Path] = set()
+"""Code that a scenario's file has named in this process: what else names it may have it, too."""
+
+
 class WordReader(ItemReader):
     """Reads the values of `WORDS` from a file.
 
@@ -214,16 +218,17 @@ class WordReader(ItemReader):
             return None
 
     def _terms(self, item: Item) -> Path | None:
-        if self._folder is None:
-            message = "terms of one's own are code, which is only read where a file names it"
-            self.wrong(item.place, message)
-            return None
         if not isinstance(item.value, str):
             self.wrong(item.place, f"expected the path of a Python file, got {shown(item.value)}")
             return None
+        if self._folder is None and Path(item.value) not in _NAMED_BY_FILES:
+            message = "terms of one's own are code, which is only read where a file names it"
+            self.wrong(item.place, message)
+            return None
         try:
-            path = (self._folder / item.value).resolve()
+            path = ((self._folder or Path()) / item.value).resolve()
             if path.is_file():
+                _NAMED_BY_FILES.add(path)
                 return path
         except (OSError, ValueError, RuntimeError):  # too long, a NUL, or links in a circle
             pass
