@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from geswarm.rules import Vocabulary
+
 Colour: TypeAlias = tuple[int, int, int]
 """Red, green, blue, 0 to 255."""
 
@@ -11,9 +13,9 @@ BEHAVIOURS: tuple[Colour, ...] = (
     (250, 166, 10),  # PHOTOTAXIS: amber, to the light
     (31, 99, 222),  # ANTI-PHOTOTAXIS: blue, away from it
     (34, 178, 120),  # RANDOM_WALK: green
-    (195, 150, 255),  # lilac
-    (135, 75, 45),  # brown
-    (105, 255, 135),  # bright green
+    (195, 150, 255),  # STOP: lilac
+    (135, 75, 45),  # ATTRACTION: brown
+    (105, 255, 135),  # REPULSION: bright green
     (120, 0, 255),  # violet
     (240, 45, 0),  # red
     (255, 180, 240),  # pale pink
@@ -21,7 +23,16 @@ BEHAVIOURS: tuple[Colour, ...] = (
     (135, 165, 75),  # olive
     (180, 240, 195),  # mint
 )
-"""LED colour of each behaviour code, told apart by the colour-blind too."""
+"""LED colours of behaviours, told apart by the colour-blind too."""
+
+_WITH_OWN_COLOUR = (
+    "PHOTOTAXIS",
+    "ANTI-PHOTOTAXIS",
+    "RANDOM_WALK",
+    "STOP",
+    "ATTRACTION",
+    "REPULSION",
+)
 
 POPULATION: tuple[Colour, ...] = (
     (109, 32, 119),  # purple
@@ -61,9 +72,14 @@ OTHER_AREAS: tuple[Colour, ...] = (
 """Tints of areas that are not painted: pale like the floor."""
 
 
-def behaviour_colour(code: int) -> Colour:
-    """LED colour of a behaviour code; codes beyond the palette begin it again."""
-    return BEHAVIOURS[code % len(BEHAVIOURS)]
+def behaviour_colours(vocabulary: Vocabulary) -> tuple[Colour, ...]:
+    """LED colour of each behaviour; those of the library have the same one in all scenarios.
+
+    Others take the colours that are left; beyond the palette it begins again.
+    """
+    names = vocabulary.behaviour_names
+    places = [*_WITH_OWN_COLOUR, *(name for name in names if name not in _WITH_OWN_COLOUR)]
+    return tuple(BEHAVIOURS[places.index(name) % len(BEHAVIOURS)] for name in names)
 
 
 def between(one: Colour, other: Colour, part: float) -> Colour:

@@ -10,6 +10,7 @@ from typing import cast
 import numpy as np
 
 from geswarm import __version__
+from geswarm.evaluation import shown as figure
 from geswarm.evolution import Member
 from geswarm.ge import CHOICES, PRESETS, STEERABLE, Settings, StoredIndividual, fall_in_words
 from geswarm.rules import RuleSet, describe
@@ -131,7 +132,7 @@ def _about(look: Look) -> wire.AboutRun:
         finished=look.finished,
         version=config.version if config.version != __version__ else None,
         best=last.best_so_far if last else None,
-        fall=fall_in_words([record.best_so_far for record in look.history]) if last else "",
+        fall=fall_in_words([record.best_so_far for record in look.history], figure) if last else "",
         mean=last.mean if last else None,
     )
 
@@ -286,7 +287,7 @@ def _run(summary: RunSummary, runs: Runs) -> wire.KeptRun:
         done=len(values),
         generations=evolution.generations if active else generations,
         best=_short(values[-1]) if values else None,
-        fall=fall_in_words(values) if values else "",
+        fall=fall_in_words(values, figure) if values else "",
         phase=_named(evolution.phase if active else _phase(summary)),
         written=summary.written,
     )

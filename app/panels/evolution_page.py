@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geswarm.evolution import InjectionError
 from geswarm.ge import STEERABLE, SettingsError, StoreError
-from geswarm.rules import RuleSet
+from geswarm.rules import RuleSet, RuleSetError
 
 from ..protocol import evolution as told
 from ..protocol import evolution_requests as asked
@@ -21,7 +21,15 @@ from .page import RequestError, Sources, WatchedPage
 class EvolutionPage(WatchedPage):
     """Carries out what pages ask for and keeps all of them up to date."""
 
-    refusals = (RequestError, RunPlanError, RunError, InjectionError, SettingsError, StoreError)
+    refusals = (
+        RequestError,
+        RunPlanError,
+        RunError,
+        InjectionError,
+        RuleSetError,
+        SettingsError,
+        StoreError,
+    )
     typed = (told.PlanMessage, told.EvolutionMessage, told.RunsMessage)
 
     def __init__(self, session: Session) -> None:
@@ -142,9 +150,10 @@ class EvolutionPage(WatchedPage):
         return f"{rule_set.name}: now in the table and in the arena; undo takes it out again"
 
     def _compare_with(self, _: asked.CompareWith) -> str:
-        name = self._chosen.rule_set.name
+        rule_set = self._chosen.rule_set
+        self.session.require_offered(rule_set)
         self.session.compare_with(CHOSEN)
-        return f"{name}: runs in the arena beside the rules of the table"
+        return f"{rule_set.name}: runs in the arena beside the rules of the table"
 
     @property
     def _chosen(self) -> Chosen:

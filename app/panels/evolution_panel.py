@@ -11,7 +11,9 @@ import viser
 from viser import uplot
 from viser._gui_handles import GuiProgressBarHandle
 
+from geswarm.evaluation import shown as figure
 from geswarm.ge import GenerationRecord, fall_in_words
+from geswarm.rules.names import name_errors
 
 from ..state.evolution import EvolutionThread, Phase
 from ..state.runs import Runs
@@ -83,7 +85,7 @@ class EvolutionPanel:
         plan, rule_set = runs.plan, self.session.document.rule_set
         history, references = runs.history, runs.references
         progress = (evolution.phase, len(evolution.history), evolution.remarks)
-        looked_at = (runs.shown, len(history), len(references), runs.best is None)
+        looked_at = (runs.shown, len(history), len(references), can_load(self.session))
         campaign = self.session.campaigns.thread.active
         shown = (*progress, *looked_at, plan, rule_set, campaign)
         if shown == self._shown:
@@ -96,18 +98,18 @@ class EvolutionPanel:
         handles.pause.visible = handles.stop.visible = evolution.active
         paused = evolution.phase is Phase.PAUSED
         handles.pause.label = "Go on" if paused else "Pause"
-        handles.load_best.disabled = runs.best is None
+        handles.load_best.disabled = not can_load(self.session)
         handles.progress.visible = evolution.active
         if evolution.generations:
             done = 100.0 * len(evolution.history) / evolution.generations
             handles.progress.value = done  # type: ignore[misc]  # viser types it read-only
         if history:
             drawn = (runs.reevaluated, tuple(references), runs.label)
+            handles.chart.data = curves(history, references)  # first: series need their data
             if drawn != self._drawn:
                 self._drawn = drawn
                 handles.chart.axes = axes(runs.label)
                 handles.chart.series = series(runs.reevaluated, references)
-            handles.chart.data = curves(history, references)
         handles.chart.visible = bool(history)
 
 
@@ -123,9 +125,15 @@ def begin(session: Session) -> None:
 
 
 def load_best(session: Session) -> None:
-    """Load the best rule set of the run looked at, if there is one."""
-    if (best := session.runs.best) is not None:
+    """Load the best rule set of the run looked at, if there is one that can run in the arena."""
+    if can_load(session) and (best := session.runs.best) is not None:
         session.load(best)
+
+
+def can_load(session: Session) -> bool:
+    """There is a best rule set, and the scenario of the arena offers all that it mentions."""
+    best = session.runs.best
+    return best is not None and not name_errors(best, session.vocabulary)
 
 
 def pause_or_go_on(evolution: EvolutionThread) -> None:
@@ -150,7 +158,7 @@ def axes(label: str) -> tuple[uplot.Axis, uplot.Axis]:
             ticks={"size": 4},
         )
 
-    return {**axis("generation", 24), "incrs": _WHOLE}, axis(label, 40)
+    return {**axis("generation", 24), "incrs": _WHOLE}, axis(label, 48)
 
 
 def add_chart(gui: viser.GuiApi) -> viser.GuiUplotHandle:
@@ -174,7 +182,6 @@ def series(reevaluated: bool, references: Collection[str]) -> tuple[uplot.Series
         reevaluated: The best is evaluated again and again, so that its curve can fall.
         references: Their titles.
     """
-    names = [*references, *("" for _ in _REFERENCES)]
     best = "best, re-evaluated" if reevaluated else "best so far"
     return (
         uplot.Series(label="generation"),
@@ -188,10 +195,9 @@ def series(reevaluated: bool, references: Collection[str]) -> tuple[uplot.Series
                 stroke=colour,
                 width=1.5,
                 points={"show": False},
-                show=bool(name),
                 **_DASHED,
             )
-            for name, colour in zip(names, _REFERENCES, strict=False)
+            for name, colour in zip(references, _REFERENCES, strict=False)
         ),
     )
 
@@ -199,7 +205,7 @@ def series(reevaluated: bool, references: Collection[str]) -> tuple[uplot.Series
 def curves(
     history: Sequence[GenerationRecord], references: Mapping[str, float]
 ) -> tuple[np.ndarray, ...]:
-    """Generations and the five curves over them, in the order of the legend."""
+    """Generations and five curves over them, in the order of the legend, which may have fewer."""
     columns = [
         np.array([getattr(record, name) for record in history], dtype=np.float64)
         for name in ("generation", "best_so_far", "best", "mean")
@@ -238,8 +244,9 @@ def status_html(runs: Runs, findings: list[str]) -> str:
 
 def _figures(history: Sequence[GenerationRecord]) -> str:
     record = history[-1]
-    fall = fall_in_words([one.best_so_far for one in history])
-    return f"best {record.best_so_far:.1f}{fall and f' ({fall})'}, mean {record.mean:.1f}."
+    fall = fall_in_words([one.best_so_far for one in history], figure)
+    best, mean = figure(record.best_so_far), figure(record.mean)
+    return f"best {best}{fall and f' ({fall})'}, mean {mean}."
 
 
 def _opened(runs: Runs) -> str:

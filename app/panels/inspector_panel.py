@@ -68,7 +68,7 @@ class InspectorPanel:
 def robot_html(world: World, robot: int, rule_set: RuleSet) -> str:
     """What there is to know of a robot, as HTML."""
     state = world.state
-    colour = palette.css(palette.behaviour_colour(int(state.behaviour[robot])))
+    colour = palette.css(palette.behaviour_colours(world.vocabulary)[state.behaviour[robot]])
     behaviour = (
         f'<span style="display:inline-block;width:.75em;height:.75em;border-radius:50%;'
         f'background:{colour};margin-right:.4em"></span>'

@@ -35,6 +35,7 @@ from ..state.worth import WorthAnswer
 def vocabulary_message(scenario: Scenario) -> wire.VocabularyMessage:
     """The names that rules are made of, with their colours, the presets, and the objective."""
     vocabulary, objective = vocabulary_of(scenario), scenario.objective
+    colours = palette.behaviour_colours(vocabulary)
     return wire.VocabularyMessage(
         preconditions=tuple(
             wire.PerceptOffer(
@@ -51,10 +52,10 @@ def vocabulary_message(scenario: Scenario) -> wire.VocabularyMessage:
             wire.BehaviourOffer(
                 name=entry.name,
                 doing=entry.doing,
-                colour=palette.css(palette.behaviour_colour(code)),
+                colour=palette.css(colour),
                 arguments=_arguments(entry.arguments),
             )
-            for code, entry in enumerate(vocabulary.behaviours)
+            for entry, colour in zip(vocabulary.behaviours, colours, strict=True)
         ),
         internal_states=tuple(
             wire.StateOffer(

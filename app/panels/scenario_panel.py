@@ -44,9 +44,10 @@ class Value:
         """The scenario has such a number: a nest, objects, an arena that is a rectangle."""
         if self.key in ("width", "length"):
             return isinstance(scenario.arena.outline, Box)
-        if self.key in ("nest", "source", "light", "objects", "grip_reach", "object_margin"):
-            key = "objects" if self.key in ("grip_reach", "object_margin") else self.key
-            return bool(getattr(scenario, key))
+        if self.key in ("nest", "source", "light", "objects"):
+            return bool(getattr(scenario, self.key))
+        if self.key in ("grip_reach", "object_range", "object_margin"):
+            return bool(scenario.objects)
         return True
 
     def of(self, scenario: Scenario) -> float:
@@ -74,6 +75,7 @@ VALUES = (
     Value("random_walk.0", "Walk min, s", 1.0, "Shortest time for which a heading is kept"),
     Value("random_walk.1", "Walk max, s", 1.0, "Longest time for which a heading is kept"),
     Value("grip_reach", "Grip reach, m", 0.01, "From the robot's centre to an object"),
+    Value("object_range", "Sight, m", 0.05, "From the robot's centre to an object that it sees"),
     Value("proximity_range", "Proximity, m", 0.01, "From the body's edge to a wall"),
     Value("rab_range", "Rab range, m", 0.05, "Between the centres of two robots"),
     Value("object_margin", "Margin, m", 0.01, "Objects do not appear nearer to a wall"),

@@ -8,7 +8,8 @@ from html import escape
 
 import viser
 
-from geswarm.sim import load_scenario, scenario_names
+from geswarm.rules import RuleSet
+from geswarm.sim import World, load_scenario, scenario_names
 
 from ..scene.detail import Detail, DetailKeeper
 from ..state.keys import KEYS, Key
@@ -82,16 +83,7 @@ class SwarmPanel:
             "Speed", tuple(speeds), hint="Simulated seconds per second; F: max, or back to 1x"
         )
         speed.on_click(lambda event: post(lambda s: s.set_speed(speeds[event.target.value])))
-        names = list(dict.fromkeys([*scenario_names(), session.scenario.name]))
-        given = session.scenario
-        scenario = gui.add_dropdown("Scenario", tuple(names), initial_value=given.name)
-
-        @scenario.on_update
-        def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
-            name = event.target.value
-            chosen = given if name == given.name else load_scenario(name)
-            post(lambda s: s.set_scenario(chosen) if s.loaded != chosen else None)
-
+        scenario = self._add_scenarios(gui)
         seed = gui.add_number("Seed", session.world.seed, min=0, max=LARGEST_SEED, step=1)
 
         @seed.on_update
@@ -114,6 +106,22 @@ class SwarmPanel:
         for key, label, command in KEYS:
             add_key(gui, session, key, label, command)
         self.handles = SwarmHandles(score, play, back, speed, scenario, seed, compare)
+
+    def _add_scenarios(self, gui: viser.GuiApi) -> viser.GuiDropdownHandle[str]:
+        given, post = self.session.scenario, self.session.post
+        names = tuple(dict.fromkeys([*scenario_names(), given.name]))
+        scenarios = gui.add_dropdown("Scenario", names, initial_value=given.name)
+
+        @scenarios.on_update
+        def _(event: viser.GuiEvent[viser.GuiDropdownHandle[str]]) -> None:
+            name = event.target.value
+            chosen = given if name == given.name else load_scenario(name)
+            event.target.disabled = True
+            World(chosen, RuleSet()).step()  # what must be compiled is so now: the arena goes on
+            event.target.disabled = False
+            post(lambda s: s.set_scenario(chosen) if s.loaded != chosen else None)
+
+        return scenarios
 
     def sync(self) -> None:
         """Show the session as it is."""

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import viser
 
-from geswarm.sim import Scenario
+from geswarm.sim import Scenario, vocabulary_of
 
 from .. import palette
 from ..palette import Colour
@@ -22,7 +22,6 @@ from .shapes import Mesh
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)
-_LED_COLOURS = np.array([palette.linear(c) for c in palette.BEHAVIOURS], dtype=np.uint8)
 _UPRIGHT = np.array((1.0, 0.0, 0.0, 0.0), dtype=np.float32)
 
 
@@ -101,6 +100,8 @@ class ShownArena:
         """
         self.remove()
         self._scene, self._extent = scene, max(scenario.width, scenario.length)
+        self._colours = palette.behaviour_colours(vocabulary_of(scenario))
+        self._linear = np.array([palette.linear(c) for c in self._colours], dtype=np.uint8)
         self.handles = ArenaHandles(
             scene.add_frame(self.root, show_axes=False, position=(*at, 0.0))
         )
@@ -128,7 +129,7 @@ class ShownArena:
             handles.detail = detail
         if detail is Detail.POINTS:
             if handles.points is None:
-                handles.points = Points(self._scene, self.root, self._extent)
+                handles.points = Points(self._scene, self.root, self._extent, self._colours)
             handles.points.sync(view)
             return
         self._sync_robots(handles, view)
@@ -150,7 +151,7 @@ class ShownArena:
         for batch in robots.posed:
             batch.batched_positions = positions
             batch.batched_wxyzs = quaternions
-        colours = _LED_COLOURS[np.asarray(view.behaviour) % len(_LED_COLOURS)]
+        colours = self._linear[np.asarray(view.behaviour)]
         robots.leds.batched_colors = robots.glows.batched_colors = colours
         robots.carried.batched_scales = np.asarray(view.carried, dtype=np.float32)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -9,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from geswarm.sim import Scenario
+from geswarm.sim import Scenario, vocabulary_of
 from geswarm.sim.arena import Box, Outline
 from geswarm.sim.arena_geometry import corners, distances
 from geswarm.sim.footbot import RADIUS
@@ -73,6 +74,7 @@ class Overlays:
         if self._root is not None:
             self._root.remove()
         self._scene = scene
+        self._colours = palette.behaviour_colours(vocabulary_of(scenario))
         self._root = scene.add_frame(_ROOT, show_axes=False)
         ring = scene.add_frame(f"{_ROOT}/selected", show_axes=False, visible=False)
         for name, inside, outside, colour in (
@@ -144,7 +146,7 @@ class Overlays:
             self.handles.trails.visible = True
             return
         self._trail_samples = trace.samples
-        points, colours = trail_segments(trace.trails())
+        points, colours = trail_segments(trace.trails(), self._colours)
         trails = self.handles.trails
         if trails is None or trails.points.shape != points.shape:
             self.handles.trails = self._scene.add_line_segments(
@@ -182,11 +184,13 @@ class Overlays:
         )
 
 
-def trail_segments(trails: Trails) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.uint8]]:
+def trail_segments(
+    trails: Trails, of_behaviours: Sequence[Colour]
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.uint8]]:
     """Points, shape (segments, 2, 3), metres, and colours, same shape, fading with age."""
     points = np.full((*trails.ends.shape[:2], 3), _TRAIL_Z, dtype=np.float32)
     points[..., :2] = trails.ends
-    vivid = np.array(palette.BEHAVIOURS, dtype=float)[trails.behaviour % len(palette.BEHAVIOURS)]
+    vivid = np.array(of_behaviours, dtype=float)[trails.behaviour]
     age = 0.9 * trails.age[:, None] ** 1.5
     colours = (1.0 - age) * vivid + age * np.array(_FADED, dtype=float)
     return points, np.repeat(_LINEAR[colours.astype(np.uint8)][:, None], 2, axis=1)

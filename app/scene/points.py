@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import viser
 
 from geswarm.sim.footbot import RADIUS
 
 from .. import palette
+from ..palette import Colour
 from ..state.view import ArenaView
 from .footbot import HEIGHT, OBJECT_HEIGHT
 
 _PER_EXTENT = 1 / 300
 """Least diameter of a point by the extent of the arena: about two pixels."""
-
-_COLOURS = np.array(palette.BEHAVIOURS, dtype=np.uint8)
 
 
 class Points:
@@ -24,9 +25,13 @@ class Points:
         scene: Where to draw.
         root: Node of the arena.
         extent: Of the arena, the larger of width and length, metres.
+        colours: Of each behaviour.
     """
 
-    def __init__(self, scene: viser.SceneApi, root: str, extent: float) -> None:
+    def __init__(
+        self, scene: viser.SceneApi, root: str, extent: float, colours: Sequence[Colour]
+    ) -> None:
+        self._colours = np.array(colours, dtype=np.uint8)
         size = max(2 * RADIUS, _PER_EXTENT * extent)
         nothing = np.zeros((0, 3), dtype=np.float32)
         self.robots, self.objects = (
@@ -46,7 +51,7 @@ class Points:
         """Show a view; objects that are carried are on top of their robots."""
         places = np.column_stack((view.x, view.y, np.full(len(view.x), HEIGHT)))
         self.robots.points = places.astype(np.float32)
-        self.robots.colors = _COLOURS[np.asarray(view.behaviour) % len(_COLOURS)]
+        self.robots.colors = self._colours[np.asarray(view.behaviour)]
         lying = np.column_stack((view.objects, np.full(len(view.objects), OBJECT_HEIGHT)))
         carried = places[np.asarray(view.carried)] + (0.0, 0.0, OBJECT_HEIGHT)
         objects = np.concatenate((lying, carried)).astype(np.float32)

@@ -31,7 +31,7 @@ _STYLE = """
 
 @dataclass(frozen=True)
 class Setting:
-    """Who forages where.
+    """Who runs what where.
 
     Attributes:
         scenario: Where.

@@ -107,8 +107,9 @@ class Stage:
             self.overlays.sync_visits(session.trace, session.shown)
 
     def _wanted_layout(self) -> tuple[object, ...]:
-        """All that the scenery depends on."""
-        return self.session.scenario.arena, self.session.rival is not None
+        """All that the scenery and the colours of the robots depend on."""
+        session = self.session
+        return session.scenario.arena, session.vocabulary, session.rival is not None
 
     def _draw(self) -> None:
         scenario, scene = self.session.scenario, self._server.scene

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from geswarm.rules import RuleSet, RuleSetError, format_yaml, parse_yaml
+from geswarm.rules.anything import ANYTHING
 
 from .background import Newest, Stop
 
@@ -149,7 +150,7 @@ def _read(path: Path) -> Unsaved | None:
         if row is None:
             _remove(path)
             return None
-        return Unsaved(path, float(row[0]), parse_yaml(row[1]))
+        return Unsaved(path, float(row[0]), parse_yaml(row[1], vocabulary=ANYTHING))
     except (OSError, sqlite3.Error, RuleSetError, TypeError, ValueError):
         return None
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from geswarm.evaluation import shown as figure
 from geswarm.evolution import EvolutionRun, Population, RunConfig
 from geswarm.ge import (
     GenerationRecord,
@@ -216,5 +217,5 @@ def _entry(run: EvolutionRun, change: StoredSteering, number: int) -> Mark:
     """Rules that entered: the injected are bred after all others, in their order."""
     key = run.config.settings.population + number
     (one,) = [one for one in run.bred(change.generation) if one.key == key]
-    text = f"rules from the table entered, fitness {one.fitness:.1f}"
+    text = f"rules from the table entered, fitness {figure(one.fitness)}"
     return Mark(change.generation, text, one.fitness)

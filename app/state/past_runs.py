@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from dataclasses import dataclass
 
+from geswarm.rules import RuleSet
 from geswarm.sim import Scenario
 
 from .rival import Rival
@@ -24,6 +25,7 @@ class ArenaRun:
         swarm: The swarm.
         rival: The swarm beside it, if there is one.
         trace: Where the robots have been.
+        rule_set: The rules in the table.
     """
 
     loaded: Scenario
@@ -31,6 +33,7 @@ class ArenaRun:
     swarm: ShownSwarm
     rival: Rival | None
     trace: PathTrace
+    rule_set: RuleSet
 
     @property
     def time(self) -> float:
@@ -49,20 +52,29 @@ class PastRuns:
         """The run that `exchange` would return."""
         return self._runs[-1] if self._runs else None
 
-    def keep(self, run: ArenaRun) -> None:
-        """Keep a run as it is now, whatever becomes of its swarms; not one that has not begun."""
-        if run.time > 0.0:
+    def keep(self, run: ArenaRun, even_new: bool = False) -> None:
+        """Keep a run as it is now, whatever becomes of its swarms.
+
+        Args:
+            run: It.
+            even_new: Also if it has not begun, as its rules would be lost with it.
+        """
+        if run.time > 0.0 or even_new:
             self._runs.append(copy.deepcopy(run))
             self._make_room()
 
-    def exchange(self, present: ArenaRun) -> ArenaRun:
+    def exchange(self, present: ArenaRun, even_new: bool = False) -> ArenaRun:
         """The latest run; the present one is kept in its place, before all others.
+
+        Args:
+            present: It.
+            even_new: As for `keep`.
 
         Raises:
             IndexError: No run is kept.
         """
         run = self._runs.pop()
-        if present.time > 0.0:
+        if present.time > 0.0 or even_new:
             self._runs.insert(0, present)
         return run
 

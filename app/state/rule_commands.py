@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-from geswarm.rules import RuleSet, Vocabulary, load_preset, read_rule_set, simplify
-from geswarm.rules.names import require_known_names
+from geswarm.rules import (
+    Finding,
+    Place,
+    RuleSet,
+    RuleSetError,
+    Vocabulary,
+    load_preset,
+    read_rule_set,
+    simplify,
+)
+from geswarm.rules.names import require_known_names, unknown_terms
+from geswarm.sim import Scenario
 
 from ..protocol.edits import AnyEdit
 from .document import RuleDocument
@@ -18,8 +28,10 @@ class RuleCommands(ABC):
     Attributes:
         document: The rules.
         journal: What of them would be lost in a crash.
+        scenario: Where the swarm is.
     """
 
+    scenario: Scenario
     document: RuleDocument
     journal: Journal
 
@@ -27,6 +39,14 @@ class RuleCommands(ABC):
     @abstractmethod
     def vocabulary(self) -> Vocabulary:
         """What the rules may mention."""
+
+    def require_offered(self, rule_set: RuleSet) -> None:
+        """Raise RuleSetError if a rule set mentions what this scenario does not offer."""
+        if unknown := unknown_terms(rule_set, self.vocabulary):
+            names = ", ".join(unknown)
+            place = Place(rule_set.name or "These rules")
+            raise RuleSetError([Finding(place, f"{self.scenario.name} does not offer {names}")])
+        require_known_names(rule_set, self.vocabulary)
 
     @abstractmethod
     def _follow_document(self) -> None:
@@ -52,7 +72,12 @@ class RuleCommands(ABC):
         self._follow_document()
 
     def load(self, rule_set: RuleSet) -> None:
-        """Put another rule set in the table and in the swarm; undo brings the old one back."""
+        """Put another rule set in the table and in the swarm; undo brings the old one back.
+
+        Raises:
+            RuleSetError: It mentions what this scenario does not offer; nothing has changed.
+        """
+        self.require_offered(rule_set)
         self.document.load(rule_set)
         self._follow_document()
 
@@ -70,7 +95,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: It cannot be read; nothing has changed.
         """
-        self.load(read_rule_set(text, source, self.vocabulary))
+        self.load(read_rule_set(text, source, self.vocabulary, self.scenario.name))
 
     def set_text(self, text: str) -> None:
         """Change the rules to what was typed in the rule language.
@@ -78,7 +103,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: It cannot be read; nothing has changed.
         """
-        self.document.replace(read_rule_set(text, vocabulary=self.vocabulary))
+        self.document.replace(read_rule_set(text, "", self.vocabulary, self.scenario.name))
         self._follow_document()
 
     def saved(self) -> None:
@@ -92,7 +117,7 @@ class RuleCommands(ABC):
         Raises:
             RuleSetError: They mention what this scenario does not offer.
         """
-        require_known_names(unsaved.rule_set, self.vocabulary)
+        self.require_offered(unsaved.rule_set)
         self.document.replace(unsaved.rule_set)
         self.journal.settle(unsaved, self.document.unsaved)
         self._follow_document()

@@ -13,7 +13,6 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from geswarm.rules import RuleSet, Vocabulary
-from geswarm.rules.names import name_errors
 from geswarm.sim import CONTROL_STEP, Scenario, ScenarioError, World, can_go_on, vocabulary_of
 
 from .arena_commands import ArenaCommands
@@ -44,7 +43,7 @@ class Session(RuleCommands, ArenaCommands):
 
     Attributes:
         loaded: The scenario as it was loaded.
-        scenario: Where the swarm forages: as loaded, or changed since.
+        scenario: Where the swarm is: as loaded, or changed since.
         scenario_problem: Why the last change of it was refused, else empty.
         document: The rules being edited; the world runs them as they stand.
         journal: What of them would be lost in a crash, and what was left by earlier ones.
@@ -189,15 +188,19 @@ class Session(RuleCommands, ArenaCommands):
         self._begin(seed)
 
     def take_back_reset(self) -> None:
-        """Go on with the run before, as it was; the rules stay. Again: with the one before that."""
-        if self.past.latest is None:
+        """Go on with the run before, as it was. Again: with the one before that.
+
+        The rules stay, unless the run before had other terms: then its own come back.
+        """
+        if (latest := self.past.latest) is None:
             return
-        run = self.past.exchange(self._run())
+        other_terms = vocabulary_of(latest.scenario) is not self.vocabulary
+        run = self.past.exchange(self._run(), even_new=other_terms)
         same_scenario = run.scenario == self.scenario
         self.loaded, self.scenario, self.rival = run.loaded, run.scenario, run.rival
         self._swarm, self.world, self.trace = run.swarm, run.swarm.world, run.trace
-        if name_errors(self.document.rule_set, self.vocabulary):
-            self._forget_rules(self.world.rule_set)
+        if other_terms:
+            self._forget_rules(run.rule_set)
         elif bare_rules(self.document.rule_set) != bare_rules(self.world.rule_set):
             self.world.set_rules(self.document.rule_set)
         self.held = None
@@ -206,7 +209,8 @@ class Session(RuleCommands, ArenaCommands):
             self._scenario_changed()
 
     def _run(self) -> ArenaRun:
-        return ArenaRun(self.loaded, self.scenario, self._swarm, self.rival, self.trace)
+        rule_set = self.document.rule_set
+        return ArenaRun(self.loaded, self.scenario, self._swarm, self.rival, self.trace, rule_set)
 
     def _begin(self, seed: int | None) -> None:
         self.world.reset(seed)
@@ -234,7 +238,7 @@ class Session(RuleCommands, ArenaCommands):
 
     def _enter(self, scenario: Scenario) -> None:
         """Begin in a scenario with other terms, with rules that can run there."""
-        self.past.keep(self._run())
+        self.past.keep(self._run(), even_new=True)
         self.scenario_problem = ""
         self.loaded = self.scenario = scenario
         rule_set = first_rules(scenario)
@@ -252,7 +256,7 @@ class Session(RuleCommands, ArenaCommands):
         self.runs.move_to(self.scenario)
         self.runs.follow(rule_set)
         self.insight.look_into(self.document.version, rule_set, self.vocabulary)
-        self.machine.draw(rule_set, self.vocabulary)
+        self.machine.draw(self.world.rule_set, self.vocabulary)
 
     def change_scenario(self, **changes: Any) -> None:
         """Change values of the scenario, at once where the run can go on, else with a reset.

@@ -63,7 +63,9 @@ class MachineDrawer:
     def activity(self, world: World) -> Activity | None:
         """What the swarm does in the machine drawn; None if it runs other rules meanwhile."""
         drawn = self.drawn
-        if drawn is None or drawn.rule_set is not world.rule_set:
+        if drawn is None or drawn.rule_set != world.rule_set:
+            return None
+        if drawn.machine.space.vocabulary is not world.vocabulary:
             return None
         robots = drawn.machine.robots_in_states(*world.numbers_in(drawn.machine.space))
         taken = drawn.machine.times_taken(world.decisions)

@@ -55,6 +55,9 @@ class Vocabulary:
     readings: tuple[Reading, ...] = ()
     name: str = ""
 
+    def __deepcopy__(self, _: object) -> Vocabulary:
+        return self  # it never changes, and is equal to nothing but itself
+
     @cached_property
     def percepts(self) -> dict[str, PreconditionName]:
         """What can be compared, by name: the preconditions, and readable internal states."""

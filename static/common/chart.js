@@ -1,13 +1,13 @@
 /** Curves over generations, as SVG: lines, dashed levels, marks, and the values under the pointer. */
 
 import { h, identify, svg } from "./dom.js";
-import { axis, decimal } from "./figures.js";
+import { axis, figure } from "./figures.js";
 
 /** Okabe and Ito's colours without yellow and black: told apart by the colour-blind, on any ground. */
 export const COLOURS = ["#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#0072b2"];
 
 const HEIGHT = 212;
-const [LEFT, RIGHT, TOP, BOTTOM] = [44, 8, 6, 30];
+const [LEFT, RIGHT, TOP, BOTTOM] = [52, 8, 6, 30];
 const LABEL = 14; // px between the labels of two levels
 
 /**
@@ -137,7 +137,7 @@ function tint(node, { colour }) {
 }
 
 function tipRow(line, value) {
-  return h("div", { class: "tip-row" }, swatch(line), h("span", {}, line.label), h("b", {}, decimal(value)));
+  return h("div", { class: "tip-row" }, swatch(line), h("span", {}, line.label), h("b", {}, figure(value)));
 }
 
 /** @returns {number | undefined} The value at the last x that is not beyond; none outside the line. */
@@ -186,7 +186,7 @@ function levelLine({ y: value }, y, width) {
 function levelName({ label, y: value }, others, y) {
   const taken = others.some((other) => other.y >= value && y(value) - y(other.y) < LABEL);
   const at = y(value) + (taken ? LABEL - 4 : -3);
-  return text(`${label} ${decimal(value)}`, { class: "level-name", x: LEFT + 5, y: at });
+  return text(`${label} ${figure(value)}`, { class: "level-name", x: LEFT + 5, y: at });
 }
 
 /** A thin line where something was done, with a dot where rules entered. */

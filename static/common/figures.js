@@ -16,8 +16,14 @@ export function signed(value, decimals = 1) {
 
 export const interval = (low, high, decimals = 1) => `[${decimal(low, decimals)}, ${decimal(high, decimals)}]`;
 
-/** @returns {number} Three where values are small, as shares are; else one. */
-export const decimalsFor = (values) => (values.some((value) => Math.abs(value) >= 2) ? 1 : 3);
+/** @returns {number} Three where values are small, as shares are; none where they are thousands; else one. */
+export function decimalsFor(values) {
+  const most = Math.max(...values.map(Math.abs));
+  return most >= 1000 ? 0 : most >= 2 ? 1 : 3;
+}
+
+/** @returns {string} One number by itself, with as many decimals as suit it. */
+export const figure = (value) => decimal(value, decimalsFor([value]));
 
 /** @returns {string} "p = 0.012", or nothing if there is no p-value. */
 export function pValue(p) {
@@ -46,9 +52,11 @@ export function quantile(values, share) {
 export function axis(values) {
   const least = Math.min(...values);
   const most = Math.max(...values);
-  const span = Math.max(most - least, Math.max(most, -least) < 2 ? 0.1 : 4);
+  const farthest = Math.max(most, -least);
+  const span = Math.max(most - least, farthest < 2 ? 0.1 : 4);
+  const room = farthest < 10_000 ? 6 : 4; // ticks that have room beside one another
   const power = 10 ** Math.floor(Math.log10(span / 4));
-  const step = [1, 2, 5, 10].map((round) => round * power).find((size) => span / size <= 6);
+  const step = [1, 2, 5, 10].map((round) => round * power).find((size) => span / size <= room);
   const first = Math.floor(least / step) * step;
   const count = Math.max(1, Math.ceil((least + span - first) / step));
   const ticks = Array.from({ length: count + 1 }, (_, i) => Number((first + i * step).toPrecision(9)));

@@ -1,12 +1,12 @@
 /** Whom the best descends from: everybody as a picture, the line of first parents as a list. */
 
 import { h, identify, svg } from "../common/dom.js";
-import { axis, decimal } from "../common/figures.js";
+import { axis, figure } from "../common/figures.js";
 import { request } from "./protocol.js";
 import { Rows } from "./rows.js";
 
 const HEIGHT = 176;
-const [LEFT, RIGHT, TOP, BOTTOM] = [44, 8, 8, 30];
+const [LEFT, RIGHT, TOP, BOTTOM] = [52, 8, 8, 30];
 
 export class Ancestors {
   #chosen = null;
@@ -37,7 +37,7 @@ export class Ancestors {
     if (line.length === 0) return;
     this.words.textContent = `The best, from the top down: its first parent, that one's first parent and so on. ${counted(all.length)}`;
     this.#draw();
-    this.rows.show(line, ([generation, , fitness, how, codons]) => [String(generation), decimal(fitness), [bred(how)], String(codons)]);
+    this.rows.show(line, ([generation, , fitness, how, codons]) => [String(generation), figure(fitness), [bred(how)], String(codons)]);
     this.rows.mark(this.#chosen);
   }
 

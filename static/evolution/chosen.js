@@ -1,7 +1,7 @@
 /** The rules of the individual that was clicked. */
 
 import { h, iconButton, identify } from "../common/dom.js";
-import { decimal } from "../common/figures.js";
+import { figure } from "../common/figures.js";
 import { request } from "./protocol.js";
 
 export class ChosenRules {
@@ -33,7 +33,7 @@ export class ChosenRules {
     if (individual === null) return;
     const { run, generation, key, fitness } = individual;
     this.title.textContent = `Generation ${generation}, individual ${key}`;
-    this.from.textContent = `fitness ${decimal(fitness)} · ${run}`;
+    this.from.textContent = `fitness ${figure(fitness)} · ${run}`;
     const one = ({ text, english }) => h("li", {}, h("p", {}, english), h("pre", {}, text));
     this.rules.replaceChildren(...rules.map(one));
   }

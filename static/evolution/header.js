@@ -1,7 +1,7 @@
 /** The run looked at, how far it is, and the buttons that stop it and take its best. */
 
 import { h, icon, identify } from "../common/dom.js";
-import { decimal } from "../common/figures.js";
+import { figure } from "../common/figures.js";
 import { readable } from "./form.js";
 import { request } from "./protocol.js";
 
@@ -111,7 +111,7 @@ function aboutWords({ scenario, preset, seed, frozen, version }) {
 
 function ownLine({ phase, about }, done, generations) {
   if (phase === "IDLE") return "Evolves rules in the scenario of the arena, while the swarm goes on.";
-  if (phase === "RUNNING" && !done) return "Running the rules to compare with…";
+  if (phase === "RUNNING" && !done) return "Running what evolved rules are compared with…";
   return `Generation ${done} of ${generations} · ${WORDS[phase]}${figures(about)}`;
 }
 
@@ -123,5 +123,5 @@ function keptLine(about) {
 
 function figures(about) {
   if (typeof about?.best !== "number") return "";
-  return ` · best ${decimal(about.best)}${about.fall && ` (${about.fall})`}, mean ${decimal(about.mean)}`;
+  return ` · best ${figure(about.best)}${about.fall && ` (${about.fall})`}, mean ${figure(about.mean)}`;
 }

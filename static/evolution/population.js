@@ -1,7 +1,7 @@
 /** The population of the last generation: how good, how big, how different, and everybody in it. */
 
 import { h, identify, svg } from "../common/dom.js";
-import { decimal } from "../common/figures.js";
+import { decimal, decimalsFor, figure } from "../common/figures.js";
 import { request } from "./protocol.js";
 import { Rows } from "./rows.js";
 
@@ -57,8 +57,8 @@ export class Population {
       tile("size", String(size), `individuals of generation ${generation}, ${valid}`),
       tile("behaviours", String(behaviours), "distinct behaviours", BEHAVIOURS),
       tile("diversity", decimal(diversity), "effective number of them", DIVERSITY),
-      plot("fitness", "fitness", fitness),
-      plot("codons", "size in codons", codons, 0),
+      plot("fitness", "fitness", fitness, decimalsFor([fitness.low, fitness.high])),
+      plot("codons", "size in codons", codons, 0, 1),
     );
     const rest = size - invalid - coloured.reduce((sum, [, count]) => sum + count, 0);
     const parts = coloured.map(([number, count, colour]) => share(count, colour, `behaviour ${number}: ${count}`));
@@ -84,7 +84,7 @@ function cells([generation, , fitness, told, codons, rules, behaviour], i, colou
   const patch = h("span", { class: "patch", "aria-hidden": "true" });
   if (colours.has(behaviour)) patch.style.setProperty("--patch", colours.get(behaviour));
   const number = behaviour === null ? ["invalid"] : [patch, String(behaviour)];
-  return [String(i + 1), decimal(fitness), `${told}×`, String(codons), rules === null ? "–" : String(rules), number, String(generation)];
+  return [String(i + 1), figure(fitness), `${told}×`, String(codons), rules === null ? "–" : String(rules), number, String(generation)];
 }
 
 function tile(id, value, words, title = null) {
@@ -92,7 +92,7 @@ function tile(id, value, words, title = null) {
 }
 
 /** A histogram with its ends and its mean. */
-function plot(id, words, { low, high, mean, counts }, decimals = 1) {
+function plot(id, words, { low, high, mean, counts }, decimals, ofMean = decimals) {
   const most = Math.max(1, ...counts);
   const bars = counts.map((count, i) => {
     const height = count ? Math.max(1.5, ((HEIGHT - 1) * count) / most) : 0;
@@ -100,7 +100,7 @@ function plot(id, words, { low, high, mean, counts }, decimals = 1) {
   });
   const attributes = { viewBox: `0 0 ${counts.length} ${HEIGHT}`, preserveAspectRatio: "none", height: HEIGHT, "aria-hidden": "true" };
   const ends = h("div", { class: "ends" }, h("span", {}, decimal(low, decimals)), h("span", {}, decimal(high, decimals)));
-  const title = h("span", {}, `${words}, mean ${decimal(mean)}`);
+  const title = h("span", {}, `${words}, mean ${decimal(mean, ofMean)}`);
   return h("div", { class: "tile plot", "data-testid": `plot-${id}` }, svg("svg", attributes, ...bars), ends, title);
 }
 

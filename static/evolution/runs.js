@@ -2,7 +2,7 @@
 
 import { COLOURS } from "../common/chart.js";
 import { h, icon, iconButton, identify } from "../common/dom.js";
-import { decimal } from "../common/figures.js";
+import { figure } from "../common/figures.js";
 import { presetWords } from "./header.js";
 import { request } from "./protocol.js";
 import { ask } from "./question.js";
@@ -92,7 +92,7 @@ class RunItem {
     this.open.disabled = Boolean(run.problem);
     this.details.replaceChildren(...(run.problem ? [icon("warning"), run.problem] : [detailWords(run)]));
     this.details.classList.toggle("problem", Boolean(run.problem));
-    this.best.textContent = run.best === null ? "" : `best ${decimal(run.best)}`;
+    this.best.textContent = run.best === null ? "" : `best ${figure(run.best)}`;
     this.state.textContent = run.elsewhere ? "under way elsewhere" : STATES[run.phase];
     this.state.className = `run-state ${run.phase.toLowerCase()}`;
     this.go.hidden = run.elsewhere || run.phase !== "STOPPED";

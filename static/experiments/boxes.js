@@ -1,7 +1,7 @@
 /** What was compared: for each scenario a table with a box plot of each rule set. */
 
 import { h, icon, identify, svg } from "../common/dom.js";
-import { axis, decimal, quantile } from "../common/figures.js";
+import { axis, decimal, decimalsFor, quantile } from "../common/figures.js";
 
 const HEIGHT = 24; // px of a box plot
 const GOLDEN = 0.618; // spreads equal values without chance
@@ -43,7 +43,8 @@ export class Boxes {
 const HEADINGS = ["mean", "median", "sd", "p", "p Holm", "effect"];
 
 function table({ name, results }, against) {
-  const scale = axis(results.flatMap(({ fitness }) => fitness));
+  const values = results.flatMap(({ fitness }) => fitness);
+  const scale = { ...axis(values), decimals: decimalsFor(values) };
   const heads = HEADINGS.map((heading) => h("th", { scope: "col" }, heading));
   const head = h("tr", {}, h("th", { scope: "col", class: "scenario" }, name), h("td", {}), ...heads);
   const rows = results.map((result) => row(result, scale, result.rules === against));
@@ -54,7 +55,7 @@ function table({ name, results }, against) {
 }
 
 function row(result, scale, isReference) {
-  const figures = [result.mean, result.median, result.sd].map((value) => decimal(value));
+  const figures = [result.mean, result.median, result.sd].map((value) => decimal(value, scale.decimals));
   const compared = [p(result.p_value), p(result.p_holm), result.effect === null ? "" : result.effect.toFixed(2)];
   const cells = [...figures, ...compared].map((text) => h("td", {}, text));
   const clear = result.p_holm !== null && result.p_holm < SIGNIFICANT;
@@ -71,7 +72,7 @@ function p(value) {
 }
 
 /** A dot for every run, a box over the middle half, a line at the median, whiskers. */
-function plot({ rules, fitness, median }, { ticks, percent }) {
+function plot({ rules, fitness, median }, { ticks, percent, decimals }) {
   const at = (value) => `${percent(value).toFixed(2)}%`;
   const [low, high] = [0.25, 0.75].map((share) => quantile(fitness, share));
   const reach = 1.5 * (high - low);
@@ -84,7 +85,8 @@ function plot({ rules, fitness, median }, { ticks, percent }) {
     return svg("circle", { cx: at(value), cy, r: 1.6 });
   });
   const width = `${Math.max(0.2, percent(high) - percent(low)).toFixed(2)}%`;
-  const words = `${rules}: median ${decimal(median)}, middle half ${decimal(low)} to ${decimal(high)}`;
+  const told = (value) => decimal(value, decimals);
+  const words = `${rules}: median ${told(median)}, middle half ${told(low)} to ${told(high)}`;
   return svg(
     "svg",
     { height: HEIGHT, role: "img", "aria-label": words },

@@ -7,7 +7,7 @@ import { makeDraggable } from "./drag.js";
 import { draftField, growing } from "./field.js";
 import { findingLine } from "./finding.js";
 import { edits } from "./protocol.js";
-import { fill, isTruth, plainTerm, written } from "./terms.js";
+import { isTruth, offered, plainTerm, written } from "./terms.js";
 
 const PARTS = [
   {
@@ -130,12 +130,12 @@ export class RuleCard {
     const { vocabulary } = this.session;
     if (part === "preconditions") {
       return this.absent(part).flatMap((entry) => {
-        const values = isTruth(entry.values) ? [true, false] : entry.values.slice(-1);
-        return values.map((value) => {
-          const element = precondition(entry, value);
+        const wanted = isTruth(entry.values) ? [true, false] : [null];
+        return wanted.map((truth) => {
+          const element = precondition(entry, truth);
           return {
-            id: `${entry.name}-${value}`,
-            label: `${written(element.percept)} ${element.comparison} ${value}`,
+            id: `${entry.name}-${element.value}`,
+            label: `${written(element.percept)} ${element.comparison} ${element.value}`,
             detail: says(entry, element),
             choose: () => this.#add(part, element),
           };
@@ -144,10 +144,7 @@ export class RuleCard {
     }
     if (part === "behaviours") {
       return this.absent(part).map((entry) => ({
-        id: entry.name,
-        label: entry.name,
-        detail: fill(entry.doing),
-        colour: entry.colour,
+        ...offered(entry),
         choose: () => this.#add(part, plainTerm(entry)),
       }));
     }

@@ -4,7 +4,7 @@ import { h, iconButton, identify } from "../common/dom.js";
 import { menuButton } from "../common/menu.js";
 import { parseProbability, probabilityField } from "./probability.js";
 import { edits } from "./protocol.js";
-import { Arguments, ValueButton, entryOf, fill, isTruth, named, plainTerm, written } from "./terms.js";
+import { Arguments, ValueButton, entryOf, fill, isTruth, middle, named, offered, plainTerm, written } from "./terms.js";
 
 /** What all chips have in common: a place in a rule, a remove button and findings. */
 class Chip {
@@ -109,26 +109,29 @@ export class PreconditionChip extends Chip {
   }
 
   #names() {
-    return this.card.absent("preconditions").map((entry) => ({
-      id: entry.name,
-      label: entry.name,
-      detail: fill(entry.holds),
-      choose: () => this.set((element) => ({ ...precondition(entry, element.value) })),
-    }));
+    return this.card.absent("preconditions").map((entry) => {
+      const element = precondition(entry, this.item.value);
+      const choose = () => this.set(() => element);
+      return { id: entry.name, label: written(element.percept), detail: says(entry, element), choose };
+    });
   }
 }
 
 /** A precondition on an entry of the vocabulary; with the value, if it can be compared with it. */
 export function precondition(entry, value) {
   const { values, comparisons } = entry;
-  const kept = values.includes(value) ? value : values.at(-1);
-  return { percept: plainTerm(entry), value: kept, comparison: comparisons[0] };
+  const counts = typeof values[0] === "number";
+  const first = counts ? middle(values) : values.at(-1);
+  const comparison = counts && comparisons.includes(">=") ? ">=" : comparisons[0];
+  return { percept: plainTerm(entry), value: values.includes(value) ? value : first, comparison };
 }
+
+const COMPARED = { "==": "exactly", "!=": "other than", ">=": "at least", "<=": "at most", ">": "more than", "<": "less than" };
 
 /** A precondition in words. */
 export function says(entry, { percept, comparison, value }) {
   const denied = isTruth(entry.values) ? value !== (comparison === "==") : comparison === "!=";
-  return fill(denied && entry.fails ? entry.fails : entry.holds, { ...named(entry, percept), comparison, value });
+  return fill(denied && entry.fails ? entry.fails : entry.holds, { ...named(entry, percept), comparison: COMPARED[comparison], value });
 }
 
 export class BehaviourChip extends Chip {
@@ -148,13 +151,8 @@ export class BehaviourChip extends Chip {
   }
 
   #names() {
-    return this.card.absent("behaviours").map((entry) => ({
-      id: entry.name,
-      label: entry.name,
-      detail: fill(entry.doing),
-      colour: entry.colour,
-      choose: () => this.set(() => plainTerm(entry)),
-    }));
+    const choose = (entry) => () => this.set(() => plainTerm(entry));
+    return this.card.absent("behaviours").map((entry) => ({ ...offered(entry), choose: choose(entry) }));
   }
 }
 
@@ -231,10 +229,8 @@ export class ActionChip extends Chip {
  */
 export function actionChoices(vocabulary, choose) {
   const changes = vocabulary.behaviours.map((entry) => ({
-    id: entry.name,
-    label: entry.name,
-    detail: `start ${fill(entry.doing)}`,
-    colour: entry.colour,
+    ...offered(entry),
+    detail: `start ${offered(entry).detail}`,
     choose: () => choose({ behaviour: plainTerm(entry) }),
   }));
   const assignments = vocabulary.internal_states.flatMap(({ name, on, off, values, counts }) => {

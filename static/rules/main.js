@@ -74,6 +74,7 @@ const handlers = {
   vocabulary(message) {
     session.vocabulary = message;
     verdict.measure(message.objective);
+    worth.measure(message.objective);
     live.name(message);
   },
   rules(received) {

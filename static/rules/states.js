@@ -6,7 +6,7 @@ import { MachinePicture } from "./machine.js";
 
 const LEGEND =
   "A state fills with the robots in it, a dot is a robot on its way. p: probability per control step of 0.1 s. " +
-  "R: the rules behind it. Pink: an object is dropped or a walk begins afresh.";
+  "R: the rules behind it. Pink: what happens besides, for example a walk that begins afresh.";
 
 /**
  * What is looked at: a state (`target` is null), all transitions between two states (`at` is null),

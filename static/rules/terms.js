@@ -6,10 +6,13 @@ import { menuButton } from "../common/menu.js";
 /** @param {import("./protocol.js").Term} term */
 export const written = ({ name, arguments: values }) => (values.length ? `${name}(${values.join(", ")})` : name);
 
-/** A term of an entry of the vocabulary, with the first of what is offered in its parentheses. */
+/** The middle one of what is offered: the ends are rarely what is wanted. */
+export const middle = (offered) => offered[Math.floor((offered.length - 1) / 2)];
+
+/** A term of an entry of the vocabulary, with the middle one of what is offered in its parentheses. */
 export const plainTerm = ({ name, arguments: taken }) => ({
   name,
-  arguments: taken.map(({ offered }) => offered[0]),
+  arguments: taken.map(({ offered }) => middle(offered)),
 });
 
 export const entryOf = (entries, name) => entries.find((entry) => entry.name === name);
@@ -20,6 +23,12 @@ export const fill = (words, values = {}) => words.replace(/\{(\w+)\}/g, (_, name
 /** The arguments of a term by name, as words take them. */
 export const named = (entry, term) =>
   Object.fromEntries(entry.arguments.map(({ name }, at) => [name, term.arguments[at]]));
+
+/** A behaviour of the vocabulary as menus offer it: with the arguments that it would have at first. */
+export function offered(entry) {
+  const term = plainTerm(entry);
+  return { id: entry.name, label: written(term), detail: fill(entry.doing, named(entry, term)), colour: entry.colour };
+}
 
 export const isTruth = (values) => typeof values[0] === "boolean";
 

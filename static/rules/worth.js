@@ -1,27 +1,41 @@
 /** What each piece of the rules is worth: a bar at every rule and element. */
 
 import { h, icon, identify, svg } from "../common/dom.js";
-import { interval, signed } from "../common/figures.js";
+import { decimalsFor, interval, signed } from "../common/figures.js";
 import { request } from "./protocol.js";
 
 const HEIGHT = 9; // px of a bar's picture
 
-/** @typedef {{least: number, most: number}} Scale What the longest bars reach on either side. */
+/**
+ * @typedef {object} Scale
+ * @property {number} least What the longest bar reaches to the left.
+ * @property {number} most And to the right.
+ * @property {number} decimals Of the numbers beside the bars.
+ * @property {string} unit Of these numbers.
+ * @property {boolean} maximise More of the objective is better.
+ */
 
 /**
  * One scale for all bars. Worth counts to the right: what is lost without the piece.
  *
  * @param {import("./protocol.js").WeighedPiece[]} pieces
+ * @param {{unit: string, maximise: boolean}} objective
  * @returns {Scale}
  */
-function scaleOf(pieces) {
-  const least = Math.min(0, ...pieces.map((piece) => -piece.high));
-  const most = Math.max(0, ...pieces.map((piece) => -piece.low));
-  return { least, most: Math.max(most, least + 1) };
+function scaleOf(pieces, { unit, maximise }) {
+  const reaches = pieces.flatMap((piece) => Object.values(lost(piece, maximise)));
+  const [least, most] = [Math.min(0, ...reaches), Math.max(0, ...reaches)];
+  const decimals = decimalsFor(reaches);
+  return { least, most: Math.max(most, least + 10 ** (1 - decimals)), decimals, unit, maximise };
+}
+
+/** What is lost without a piece, and the ends of its interval; negative if it is gained. */
+function lost({ difference, low, high }, maximise) {
+  return maximise ? { loss: -difference, from: -high, to: -low } : { loss: difference, from: low, to: high };
 }
 
 /** @returns {"needed" | "harmful" | "idle"} "idle" if the interval holds zero. */
-const kindOf = ({ low, high }) => (high < 0 ? "needed" : low > 0 ? "harmful" : "idle");
+const kindOf = ({ from, to }) => (from > 0 ? "needed" : to < 0 ? "harmful" : "idle");
 
 const keyOf = (rule, part, at) => (part === "rule" ? `${rule}` : `${rule} ${part} ${at}`);
 
@@ -30,20 +44,23 @@ const keyOf = (rule, part, at) => (part === "rule" ? `${rule}` : `${rule} ${part
  * @param {Scale} scale
  * @param {string} name What the piece is called.
  */
-export function worthBar(piece, { least, most }, name) {
+export function worthBar(piece, { least, most, decimals, unit, maximise }, name) {
   const { difference, low, high } = piece;
+  const { loss, from, to } = lost(piece, maximise);
+  const kind = kindOf({ from, to });
   const percent = (worth) => (100 * (worth - least)) / (most - least);
-  const [zero, end] = [percent(0), percent(-difference)];
-  const line = (kind, from, to, y1, y2) =>
-    svg("line", { class: kind, x1: `${from}%`, x2: `${to}%`, y1, y2 });
+  const [zero, end] = [percent(0), percent(loss)];
+  const line = (of, x1, x2, y1, y2) => svg("line", { class: of, x1: `${x1}%`, x2: `${x2}%`, y1, y2 });
   const bar = { x: `${Math.min(zero, end)}%`, width: `${Math.abs(end - zero)}%`, y: 1, height: HEIGHT - 2, rx: 1.5 };
   const picture = svg("svg", { height: HEIGHT, "aria-hidden": "true" }, svg("rect", bar));
-  picture.append(line("reach", percent(-high), percent(-low), HEIGHT / 2, HEIGHT / 2));
+  picture.append(line("reach", percent(from), percent(to), HEIGHT / 2, HEIGHT / 2));
   picture.append(line("zero", zero, zero, 0, HEIGHT));
-  const effect = { needed: "worse", harmful: "better", idle: "no clear difference" }[kindOf(piece)];
-  const words = `Without ${name}: ${signed(difference)} (${effect}), 95 % interval ${interval(low, high)}`;
-  const number = h("b", {}, signed(difference));
-  return h("span", { class: `worth ${kindOf(piece)}`, title: words, role: "img", "aria-label": words }, picture, number);
+  const effect = { needed: "worse", harmful: "better", idle: "no clear difference" }[kind];
+  const reach = interval(low, high, decimals);
+  const change = `${signed(difference, decimals)} ${unit} (${effect})`;
+  const words = `Without ${name}: ${change}, 95 % interval ${reach}`;
+  const number = h("b", {}, signed(difference, decimals));
+  return h("span", { class: `worth ${kind}`, title: words, role: "img", "aria-label": words }, picture, number);
 }
 
 /** The button that starts the evaluation, its progress, and the bars in the table. */
@@ -52,6 +69,7 @@ export class Worth {
   #shown = null;
   #rules = "";
   #changed = 0;
+  #objective = { unit: "", maximise: true };
 
   /**
    * @param {import("./session.js").Session} session
@@ -74,9 +92,15 @@ export class Worth {
     this.hide.hidden = true;
     this.legend = h("div", { class: "worth-legend", hidden: true });
     identify(this.legend, "worth-legend");
-    const title = h("span", { class: "title" }, "Objects gained or lost without the piece:");
-    this.legend.append(title, h("span", { class: "needed" }, "needed"));
+    this.title = h("span", { class: "title" });
+    this.legend.append(this.title, h("span", { class: "needed" }, "needed"));
     this.legend.append(h("span", { class: "harmful" }, "harmful"), h("span", {}, "no clear difference"));
+  }
+
+  /** @param {import("./protocol.js").ObjectiveOffer} objective */
+  measure({ expression, unit, maximise }) {
+    this.#objective = { unit: unit || expression, maximise };
+    this.title.textContent = `Gained or lost without the piece (${unit || expression}):`;
   }
 
   /**
@@ -113,7 +137,7 @@ export class Worth {
     this.hide.hidden = busy || pieces.length === 0;
     this.legend.hidden = pieces.length === 0;
     if (!had && !pieces.length) return;
-    const scale = scaleOf(pieces);
+    const scale = scaleOf(pieces, this.#objective);
     const found = new Map(pieces.map((piece) => [keyOf(piece.rule, piece.part, piece.at), piece]));
     const bar = (name, ...place) => {
       const piece = found.get(keyOf(...place));

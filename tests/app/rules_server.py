@@ -30,6 +30,7 @@ from geswarm.rules import (
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
+from geswarm.sim import load_scenario
 from tests.app.wire import as_read, typed
 
 STATIC = Path(geswarm.__file__).resolve().parent.parent / "static"
@@ -123,8 +124,8 @@ class RulesServer:
                 "runs": runs,
                 "busy": busy,
                 "samples": [
-                    {"role": role, "name": names.get(role, role), "collected": list(collected)}
-                    for role, collected in samples.items()
+                    {"role": role, "name": names.get(role, role), "fitness": list(fitness)}
+                    for role, fitness in samples.items()
                 ],
                 "comparisons": [dict(zip(fields, row, strict=True)) for row in comparisons],
             }
@@ -304,7 +305,7 @@ def text_findings(text):
 
 def vocabulary():
     return {
-        **as_read(rule_messages.vocabulary_message()),
+        **as_read(rule_messages.vocabulary_message(load_scenario("paper"))),
         "presets": [
             {"name": "evo8", "title": "EVO 8"},
             {"name": "hand-coded", "title": "Hand-coded"},

@@ -4,6 +4,7 @@ import pytest
 from geswarm.app import palette
 from geswarm.app.scene.arena import ShownArena
 from geswarm.app.state.view import ArenaView
+from geswarm.rules.vocabulary import FORAGING
 from geswarm.sim import load_scenario
 
 PAPER = load_scenario("paper")
@@ -36,7 +37,7 @@ def test_view_arrives_in_the_batches(arena):
         np.testing.assert_allclose(batch.batched_positions, [(1, 0, 0), (1, 0.5, 0), (1, 1, 0)])
     for batch in robots.posed:
         np.testing.assert_allclose(batch.batched_wxyzs, [[0.5**0.5, 0, 0, 0.5**0.5]] * 3)
-    blue = palette.linear(palette.behaviour_colour(1))
+    blue = palette.linear(palette.behaviour_colours(FORAGING)[1])
     np.testing.assert_array_equal(robots.leds.batched_colors, [blue] * 3)
     np.testing.assert_array_equal(robots.glows.batched_colors, [blue] * 3)
     np.testing.assert_array_equal(robots.carried.batched_scales, [0, 1, 0])

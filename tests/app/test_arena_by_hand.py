@@ -204,7 +204,7 @@ def test_a_rival_runs_beside_and_the_score_runs(dashboard, session, screen):
     screen.get_by_role("option", name="Hand-coded").click()
     wait_until(lambda: session.rival is not None)
     screen.get_by_text("these rules", exact=True).first.wait_for()
-    wait_until(lambda: session.world.collected > 0)
+    wait_until(lambda: session.world.fitness > 0)
     titles = dashboard.stage._titles
     wait_until(lambda: re.fullmatch(r"Hand-coded: \d+", titles["/rival"].text))
     (client,) = clients(dashboard)

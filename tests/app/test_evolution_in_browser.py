@@ -12,7 +12,7 @@ from geswarm.app.server.access import Access
 from geswarm.app.server.gate import open_server
 from geswarm.app.state.evolution import EvolutionThread, Phase
 from geswarm.app.state.session import Session
-from geswarm.evolution import ForagingFitness
+from geswarm.evolution import ScenarioFitness
 from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
 from tests.app.wire import typed
@@ -250,18 +250,18 @@ def test_a_run_is_resumed_after_a_question_if_another_is_under_way(page, served)
 
 
 def test_a_failed_evolution_is_shown_and_resumed(page, served, monkeypatch):
-    evaluate = ForagingFitness.__call__
+    evaluate = ScenarioFitness.__call__
 
     def fails(self, generation, individuals):
         if generation == 2:
             raise ValueError("<b>no robots</b>")
         return evaluate(self, generation, individuals)
 
-    monkeypatch.setattr(ForagingFitness, "__call__", fails)
+    monkeypatch.setattr(ScenarioFitness, "__call__", fails)
     served.evolve(**{**TINY, "generations": 3})
     failure = page.get_by_test_id("failure")
     expect(failure).to_have_text("Evolution failed: ValueError: <b>no robots</b>")
-    monkeypatch.setattr(ForagingFitness, "__call__", evaluate)
+    monkeypatch.setattr(ScenarioFitness, "__call__", evaluate)
     page.get_by_test_id("resume").click()
     expect(page.get_by_test_id("status")).to_contain_text("Generation 3 of 3 · finished")
     expect(failure).to_be_hidden()

@@ -18,7 +18,7 @@ from geswarm.app.protocol.reading import encode
 from geswarm.app.state.evolution import Phase
 from geswarm.app.state.rival import CHOSEN
 from geswarm.app.state.runs import MOST_COMPARED
-from geswarm.evolution import ForagingFitness
+from geswarm.evolution import ScenarioFitness
 from geswarm.ge import Settings, StoredIndividual
 from tests.app.evolution_talker import EVO8, talker_fixture
 from tests.app.wire import typed
@@ -79,14 +79,14 @@ def test_a_run_starts_as_planned(talker):
     assert talker.run(name)["done"] == talker.run(name)["generations"] == 3
     curves = talker.last("curves")
     assert curves["generation"] == [1, 2, 3]
-    assert [entry["name"] for entry in curves["references"]] == ["Hand-coded", "EVO 8"]
+    assert [entry["name"] for entry in curves["references"]] == ["EVO 8", "Hand-coded"]
 
 
 def test_the_panel_starts_the_same_plan(talker):
     talker.plan(population=6, elitism=2, seed=11)
     begin(talker.session)
     assert talker.evolution.phase is Phase.IDLE
-    findings = talker.session.runs.plan.findings(EVO8)
+    findings = talker.session.runs.plan.findings(talker.session.scenario, EVO8)
     assert "what is wrong with: elitism" in status_html(talker.session.runs, list(findings))
     talker.plan(elitism=0.5)
     begin(talker.session)
@@ -219,14 +219,14 @@ def test_the_run_under_way_cannot_be_deleted(talker):
 
 
 def test_an_exception_in_an_evolution_is_shown_and_the_run_goes_on(talker, monkeypatch):
-    evaluate = ForagingFitness.__call__
+    evaluate = ScenarioFitness.__call__
 
     def fails(self, generation, individuals):
         if generation == 2:
             raise ZeroDivisionError("no robots")
         return evaluate(self, generation, individuals)
 
-    monkeypatch.setattr(ForagingFitness, "__call__", fails)
+    monkeypatch.setattr(ScenarioFitness, "__call__", fails)
     talker.plan(population=6, generations=3, evaluations=1)
     talker.say("start", instead=False)
     talker.until(lambda: talker.evolution.phase is Phase.FAILED)
@@ -236,7 +236,7 @@ def test_an_exception_in_an_evolution_is_shown_and_the_run_goes_on(talker, monke
     time_before = talker.session.world.steps
     talker.session.step()
     assert talker.session.world.steps == time_before + 1
-    monkeypatch.setattr(ForagingFitness, "__call__", evaluate)
+    monkeypatch.setattr(ScenarioFitness, "__call__", evaluate)
     talker.say("resume", name=status["run"], instead=False)
     talker.until(lambda: talker.evolution.phase is Phase.FINISHED)
     assert [record.generation for record in talker.evolution.history] == [1, 2, 3]

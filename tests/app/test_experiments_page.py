@@ -89,13 +89,15 @@ def test_what_is_chosen_is_run_as_the_command_runs_it(talker):
     (scenario,) = compared["scenarios"]
     assert scenario["name"] == "arena"
     expected = evaluate_rule_sets([EVO8, HAND_CODED], QUICK, 5, 3, workers=1)
-    found = [result["collected"] for result in scenario["results"]]
-    assert found == [evaluation.collected.tolist() for evaluation in expected]
+    found = [result["fitness"] for result in scenario["results"]]
+    assert found == [evaluation.fitness.tolist() for evaluation in expected]
     assert [result["p_holm"] is None for result in scenario["results"]] == [False, True]
     document = json.loads(talker.page.made_file("comparison.json").body)
-    assert document["results"] == scenario["results"]
+    for told, shown in zip(document["results"], scenario["results"], strict=True):
+        assert told["objective"]["expression"] == "collected"
+        assert {**told, **shown} == told
     rows = csv.DictReader(io.StringIO(talker.page.made_file("comparison.csv").body.decode()))
-    assert [int(row["collected"]) for row in rows] == found[0] + found[1]
+    assert [float(row["fitness"]) for row in rows] == found[0] + found[1]
     assert b"Plotly.newPlot" in talker.page.made_file("comparison.html").body
     assert talker.page.made_file("comparison.exe") is None
 

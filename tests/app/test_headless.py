@@ -14,6 +14,7 @@ from contextlib import closing
 import pytest
 
 from geswarm.app.main import main
+from geswarm.evaluation import shown
 from geswarm.ge import Settings
 from geswarm.rules import find_rule_set, load_rule_set
 from geswarm.sim import load_scenario, vocabulary_of
@@ -207,12 +208,12 @@ def test_the_best_does_not_fall_without_a_word(tmp_path, capsys, monkeypatch):
     out = tmp_path / "run"
     assert main(["--no-ui", "--scenario", str(scenario), *arguments, "--out", str(out)]) == 0
     best = [float(row.split(",")[1]) for row in rows(out)[1:]]
-    fell = [at for at, value in enumerate(best) if f"{value:.1f}" != f"{max(best[: at + 1]):.1f}"]
+    fell = [at for at, value in enumerate(best) if shown(value) != shown(max(best[: at + 1]))]
     assert fell, "expected a seed with which the best falls"
     said = capsys.readouterr().err
     for at in fell:
-        words = f"re-evaluated: {max(best[: at + 1]):.1f} → {best[at]:.1f}"
-        assert f"generation {at + 1}: best {best[at]:.1f} ({words})" in said
+        words = f"re-evaluated: {shown(max(best[: at + 1]))} → {shown(best[at])}"
+        assert f"generation {at + 1}: best {shown(best[at])} ({words})" in said
 
 
 def test_presets(tmp_path, quick, capsys):

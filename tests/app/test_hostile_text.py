@@ -97,7 +97,7 @@ def test_widgets_of_the_dashboard(session, tmp_path):
     session.play()
     session.frame(1.0, 1.0)
     assert is_harmless(score_html(session))
-    assert is_harmless(robot_html(session.world.state, 0, session.document.rule_set))
+    assert is_harmless(robot_html(session.world, 0, session.document.rule_set))
     session.evolution.phase, session.evolution.error = Phase.FAILED, EVIL
     session.evolution.directory = tmp_path / EVIL
     assert is_harmless(status_html(session.runs, [EVIL]))

@@ -1,11 +1,14 @@
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from geswarm.app import palette
 from geswarm.app.state.behaviours import MOST_COLOURED
+from geswarm.rules.declarations import BehaviourName
 from geswarm.rules.vocabulary import FORAGING
+from geswarm.sim import load_scenario, scenario_names, vocabulary_of
 
 # Machado, Oliveira and Fernandes 2009, severity 1: linear RGB as it is seen with the deficiency.
 VISION = {
@@ -54,7 +57,7 @@ def test_colours_are_told_apart_with_any_colour_vision(vision):
 @pytest.mark.parametrize("vision", VISION)
 def test_nothing_of_a_population_can_be_taken_for_an_led(vision):
     assert len(palette.POPULATION) == MOST_COLOURED
-    leds = [palette.behaviour_colour(code) for code in range(len(FORAGING.behaviours))]
+    leds = palette.behaviour_colours(FORAGING)
     pairs = [
         *itertools.product(palette.POPULATION, [*leds, palette.OBJECT]),
         *itertools.combinations(palette.POPULATION, 2),
@@ -64,8 +67,23 @@ def test_nothing_of_a_population_can_be_taken_for_an_led(vision):
         assert distance > CLEARLY_DIFFERENT, (one, other)
 
 
-def test_every_behaviour_code_has_a_colour():
-    assert palette.behaviour_colour(len(palette.BEHAVIOURS)) == palette.BEHAVIOURS[0]
+def test_a_behaviour_has_the_same_colour_in_every_scenario():
+    known = {}
+    for scenario in map(load_scenario, scenario_names()):
+        vocabulary = vocabulary_of(scenario)
+        colours = palette.behaviour_colours(vocabulary)
+        assert len(set(colours)) == len(colours)
+        for name, colour in zip(vocabulary.behaviour_names, colours, strict=True):
+            assert known.setdefault(name, colour) == colour
+
+
+def test_behaviours_of_ones_own_take_the_colours_that_are_left():
+    own = tuple(BehaviourName(f"OWN_{n}", "", "") for n in range(9))
+    vocabulary = replace(FORAGING, behaviours=(own[0], *FORAGING.behaviours, *own[1:]))
+    first, *foraging = palette.behaviour_colours(vocabulary)[:4]
+    assert tuple(foraging) == palette.behaviour_colours(FORAGING)
+    assert first == palette.BEHAVIOURS[6]
+    assert palette.behaviour_colours(vocabulary)[-1] == palette.BEHAVIOURS[14 % 12]
 
 
 def test_css():

@@ -9,6 +9,7 @@ from geswarm.rules import load_preset
 from geswarm.sim import load_scenario
 from tests.app.wire import typed
 
+from .test_journal import wait_until
 from .test_session import HALF_P, PAPER
 
 
@@ -128,3 +129,11 @@ def test_kept_runs_take_a_bounded_room(session, monkeypatch):
         go(session, steps)
         session.reset()
     assert [round(10 * run.time) for run in session.past._runs] == [30, 40, 50]
+
+
+def test_the_swarm_is_seen_in_its_state_machine_after_going_back(session):
+    wait_until(lambda: session.machine.drawn is not None)
+    go(session, 10)
+    session.reset()
+    session.take_back_reset()
+    assert session.machine.activity(session.world) is not None

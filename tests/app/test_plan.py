@@ -44,7 +44,7 @@ def test_a_preset_fills_all_values_and_changes_are_told():
 )
 def test_what_cannot_be_used_is_told_at_its_name(name, value, message):
     plan = RunPlan().with_value(name, value)
-    findings = plan.findings(EVO8)
+    findings = plan.findings(PAPER, EVO8)
     assert list(findings) == [name]
     assert message in findings[name]
     with pytest.raises(RunPlanError, match=f"^{name}: expected"):
@@ -76,17 +76,17 @@ def test_frozen_rules_stay_frozen_while_the_table_is_edited():
 
 def test_frozen_rules_come_first_in_what_enters_the_first_generation():
     plan = RunPlan().freezing(EVO8.rules[2], True)
-    assert plan.first(EVO8) is None
-    first = plan.with_value("from_table", True).first(EVO8)
+    assert plan.first(PAPER, EVO8) is None
+    first = plan.with_value("from_table", True).first(PAPER, EVO8)
     assert first.rules == tuple(EVO8.rules[i] for i in (2, 0, 1, 3))
 
 
 def test_rules_that_cannot_enter_are_a_finding():
     odd = parse_text("rule do p = 0.15, RANDOM_WALK")
-    findings = RunPlan().with_value("from_table", True).findings(odd)
+    findings = RunPlan().with_value("from_table", True).findings(PAPER, odd)
     assert "the nearest is 0.1" in findings["from_table"]
-    assert RunPlan().with_value("from_table", True).findings(RuleSet())["from_table"]
-    assert RunPlan().findings(odd) == {}
+    assert RunPlan().with_value("from_table", True).findings(PAPER, RuleSet())["from_table"]
+    assert RunPlan().findings(PAPER, odd) == {}
 
 
 def test_the_nearest_preset_is_told_whatever_the_sizes():

@@ -132,7 +132,7 @@ def test_each_piece_gets_a_bar_of_what_it_is_worth(page, server):
     expect(rule).to_contain_text("−40.0")
     expect(page.get_by_test_id("rule-1-behaviour-1-worth")).to_have_class("worth harmful")
     expect(page.get_by_test_id("rule-2-precondition-1-worth")).to_have_class("worth idle")
-    words = "Without action 1 of rule 2: −20.0 objects (fewer), 95 % interval [−23.0, −17.0]"
+    words = "Without action 1 of rule 2: −20.0 objects (worse), 95 % interval [−23.0, −17.0]"
     expect(page.get_by_test_id("rule-2-action-1-worth")).to_have_attribute("title", words)
     half = width_of_bar(page, "rule-2-action-1-worth")
     assert width_of_bar(page, "rule-1-worth") == pytest.approx(2 * half, abs=1)

@@ -186,7 +186,7 @@ def test_evolution_runs_pauses_goes_on_and_gives_its_best(session, tmp_path):
     )
     evolution.start(config, tmp_path / "run")
     wait_for(lambda: len(evolution.history) >= 3)
-    assert set(evolution.references) == {"hand-coded", "evo8"}
+    assert set(evolution.references) == {"EVO 8", "Hand-coded"}
     evolution.pause()
     assert evolution.phase is Phase.PAUSED
     paused_at = len(evolution.history)

@@ -10,7 +10,7 @@ from geswarm.app.panels import rule_messages
 from geswarm.app.state.evolution import EvolutionThread
 from geswarm.app.state.session import Session
 from geswarm.app.state.states import MachineDrawer
-from geswarm.rules import StateMachine, load_preset, parse_text
+from geswarm.rules import FORAGING, StateMachine, load_preset, parse_text
 from geswarm.sim import World, load_scenario
 from tests.app.wire import as_read, typed
 
@@ -36,7 +36,7 @@ def drawn(drawer, rule_set, seconds=30):
 
 def test_the_newest_rules_are_drawn(drawer):
     for rule_set in (EVO8, HAND_CODED, EVO8, HAND_CODED):
-        drawer.draw(rule_set)
+        drawer.draw(rule_set, FORAGING)
     picture = drawn(drawer, HAND_CODED)
     assert picture.machine == StateMachine.of(HAND_CODED)
     space = "{http://www.w3.org/2000/svg}"
@@ -49,7 +49,7 @@ def test_the_newest_rules_are_drawn(drawer):
 def test_the_swarm_is_seen_only_in_the_machine_of_its_rules(drawer):
     world = World(PAPER, EVO8, 1)
     assert drawer.activity(world) is None
-    drawer.draw(EVO8)
+    drawer.draw(EVO8, FORAGING)
     machine = drawn(drawer, EVO8).machine
     world.step(3000)
     activity = drawer.activity(world)
@@ -89,7 +89,7 @@ def test_a_session_draws_what_its_swarm_runs():
 
 def test_what_pages_are_told_of_states_and_transitions(drawer):
     rule_set = parse_text("rule if ON_NEST == true do p = 0.1, WANT_OBJECT = false")
-    drawer.draw(rule_set)
+    drawer.draw(rule_set, FORAGING)
     message = as_read(rule_messages.states_message(drawn(drawer, rule_set)))
     assert [state["means"] for state in message["states"]] == [
         "walking at random, WANT_OBJECT is false",

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from geswarm.app import palette
 from geswarm.app.scene.overlays import heat_map, trail_segments
 from geswarm.app.state.trace import SAMPLE_STEPS, TRAIL_SECONDS, PathTrace
 from geswarm.rules import load_preset
@@ -78,7 +79,7 @@ def test_heat_is_transparent_where_nobody_was():
 def test_trails_fade(world):
     trace = PathTrace(PAPER, world.state)
     run(world, trace, 50)
-    points, colours = trail_segments(trace.trails())
+    points, colours = trail_segments(trace.trails(), palette.BEHAVIOURS)
     assert points.shape == colours.shape
     spread = np.ptp(colours.astype(int)[:, 0], axis=1)  # grey has none
     assert spread[-4:].min() > 2 * spread[:4].max()

@@ -46,9 +46,9 @@ def test_the_verdict_is_that_of_a_plain_evaluation(verdict):
     assert list(samples) == ["current", "before", "evo8", "hand-coded"]
     for role, rule_set in (("current", edited), ("before", EVO8), ("evo8", EVO8)):
         (expected,) = evaluate_rule_sets([rule_set], QUICK, RUNS)
-        assert samples[role].collected.tolist() == expected.collected.tolist()
+        assert samples[role].fitness.tolist() == expected.fitness.tolist()
     comparisons = verdict.answer.comparisons
-    expected_difference = samples["current"].collected.mean() - samples["before"].collected.mean()
+    expected_difference = samples["current"].fitness.mean() - samples["before"].fitness.mean()
     assert comparisons["before"].difference == pytest.approx(expected_difference)
     assert comparisons["evo8"] == comparisons["before"]
 
@@ -65,7 +65,7 @@ def test_a_newer_question_cancels_the_older_one(verdict):
     time.sleep(0.1)
     verdict.ask(VerdictQuestion(2, EVO8, None, QUICK))
     wait_until(lambda: verdict.answer.question.version == 2 and not verdict.answer.busy)
-    assert all(len(sample.collected) == RUNS for sample in verdict.answer.samples)
+    assert all(len(sample.fitness) == RUNS for sample in verdict.answer.samples)
 
 
 def test_every_piece_is_weighed_and_progress_is_told(worth):

@@ -82,6 +82,9 @@ class Parts:
         self._check_limits()
         self._check_draws()
 
+    def __deepcopy__(self, _: object) -> Parts:
+        return self  # they never change, and kernels are kept by what they are made of
+
     @cached_property
     def needed_sums(self) -> tuple[Sum, ...]:
         """The sums that some component names."""
