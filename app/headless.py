@@ -55,7 +55,7 @@ def _evolve_and_report(
 ) -> int:
     try:
         with stop_on_signals() as stop:
-            compile_first(f"Stopped. {_how_to_resume(run)}")
+            compile_first(f"Stopped. {_how_to_resume(run)}", run.config.scenario)
             _evolve(run, options.workers, executor, stop, console)
     except (StoreError, EvaluationError) as error:
         console.print(f"geswarm-ui: {error}", markup=False, soft_wrap=True)

@@ -52,7 +52,7 @@ def _compare(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from error
     if options.html is not None:
         require_writable(options.html)
-    compile_first("geswarm: stopped")
+    compile_first("geswarm: stopped", *scenarios)
     cases = [Case(name, scenario) for scenario in scenarios for name in rule_sets]
     with progress_bar() as on_progress:
         samples = run_cases(

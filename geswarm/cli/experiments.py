@@ -51,7 +51,7 @@ def _evaluate(options: argparse.Namespace) -> int:
         rule_sets = [load_rule_set(each, known, options.scenario) for each in options.rules]
     except (RuleSetError, ScenarioError) as error:
         raise UsageError(str(error)) from error
-    compile_first("geswarm: stopped")
+    compile_first("geswarm: stopped", scenario)
     with progress_bar() as on_progress:
         evaluations = evaluate_rule_sets(
             rule_sets,

@@ -10,6 +10,10 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from geswarm.sim import Scenario
 
 STOPPED_STATUS = 130
 
@@ -43,13 +47,14 @@ def stop_on_signals() -> Iterator[threading.Event]:
         yield stop
 
 
-def compile_first(last_words: str) -> None:
+def compile_first(last_words: str, *scenarios: Scenario) -> None:
     """Compile the simulator unless that has been done; Ctrl-C and SIGTERM end the program there.
 
     They end it without ado, as the compiler loses or prints exceptions.
 
     Args:
         last_words: Written to stderr then.
+        *scenarios: For which; none means `paper`.
     """
     from geswarm.sim import is_compiled, warm_up
 
@@ -58,9 +63,10 @@ def compile_first(last_words: str) -> None:
             os.write(2, f"{last_words}\n".encode())
         os._exit(STOPPED_STATUS)
 
-    if not is_compiled():
-        with _on_signals(end):
-            warm_up()
+    for scenario in scenarios or (None,):
+        if not is_compiled(scenario):
+            with _on_signals(end):
+                warm_up(scenario=scenario)
 
 
 @contextmanager

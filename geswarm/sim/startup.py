@@ -14,14 +14,17 @@ from pathlib import Path
 import numba
 
 from geswarm.rules import RuleSet
+from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import compiled
+from geswarm.sim.assembly.kernel import source_of
+from geswarm.sim.assembly.source import Layout
 from geswarm.sim.batch import evaluate
 from geswarm.sim.cores import available_cores
 from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import cache
 from geswarm.sim.kernels.jit import vector_settings
 from geswarm.sim.library import parts_of
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario import Scenario, load_scenario
 from geswarm.sim.tables import compile_controllers
 from geswarm.sim.world import World
 
@@ -33,33 +36,38 @@ NOT_KEPT = (
 )
 
 
-def is_compiled() -> bool:
+def is_compiled(scenario: Scenario | None = None) -> bool:
     """Whether `warm_up` has compiled this version on this machine before, and the cache is there.
+
+    A scenario of the same terms and the same form of arena is as good; None is `paper`.
 
     Without a folder that can be written, everything is compiled in each process: False.
     """
-    return os.path.exists(_mark())  # noqa: PTH110, unlike Path's it is no error in a locked folder
+    return os.path.exists(_mark(scenario))  # noqa: PTH110, unlike Path's it is no error in a locked folder
 
 
-def warm_up(announce: Callable[[str], None] | None = None) -> None:
+def warm_up(
+    announce: Callable[[str], None] | None = None, scenario: Scenario | None = None
+) -> None:
     """Compile everything, or load it if it has been compiled before (a fraction of a second).
 
     Args:
         announce: Called with a message if compiling is going to take time, and with another one
             if it will again the next time; None writes them to stderr.
+        scenario: For which; None for `paper`.
     """
     announce = announce or _to_stderr
-    compiled_before = is_compiled()
+    compiled_before = is_compiled(scenario)
     if not compiled_before:
         announce(COMPILING if cache.trouble() is None else COMPILING_EACH_TIME)
     helper = None if compiled_before else _compile_beside()
-    small = load_scenario("paper").with_changes(duration=0.1)
+    small = (scenario or load_scenario("paper")).with_changes(duration=CONTROL_STEP)
     World(small, RuleSet()).step()
     if helper is not None:
         helper.wait()
     evaluate([RuleSet()], small, [(0, 0, 0, 0)], workers=1)
     if not compiled_before:
-        _remember(announce)
+        _remember(announce, scenario)
 
 
 def compile_tables() -> None:
@@ -82,12 +90,12 @@ def _compile_beside() -> subprocess.Popen[bytes] | None:
     return None
 
 
-def _remember(announce: Callable[[str], None]) -> None:
+def _remember(announce: Callable[[str], None], scenario: Scenario | None) -> None:
     """Leave a mark that everything has been compiled and kept, or say why it is not."""
     trouble = cache.trouble()
     if trouble is None:
         with contextlib.suppress(OSError):
-            _mark().touch()
+            _mark(scenario).touch()
     else:
         announce(NOT_KEPT.format(trouble=trouble))
 
@@ -96,8 +104,10 @@ def _to_stderr(message: str) -> None:
     print(message, file=sys.stderr, flush=True)
 
 
-def _mark() -> Path:
+def _mark(scenario: Scenario | None = None) -> Path:
     """A file beside the compiled code that says what has been compiled, for what."""
-    machine = (platform.python_version(), numba.__version__, *vector_settings())
+    parts = parts_of(scenario or load_scenario("paper"))
+    text, _ = source_of(parts, Layout(swarm=True, rules=True))
+    machine = (platform.python_version(), numba.__version__, *vector_settings(), text)
     key = zlib.crc32("|".join(machine).encode(), compiled.VERSION)
     return cache.folder() / f"compiled-{key:08x}"

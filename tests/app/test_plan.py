@@ -18,11 +18,11 @@ def frozen(plan, rule_set):
 
 
 def test_a_preset_fills_all_values_and_changes_are_told():
-    plan = RunPlan().with_value("mutation", 0.2).with_preset("modern")
+    plan = RunPlan().with_value("mutation", 0.2).with_preset("modern", PAPER)
     assert plan.values == asdict(Settings.preset("modern"))
-    assert plan.changed == []
+    assert plan.changed(PAPER) == []
     plan = plan.with_value("mutation", 0.2).with_value("seed", 7)
-    assert plan.changed == ["mutation"]
+    assert plan.changed(PAPER) == ["mutation"]
     config = plan.config(PAPER, EVO8)
     assert (config.settings.mutation, config.seed, config.frozen) == (0.2, 7, ())
     assert config.settings.selection == PRESETS["modern"]["selection"]
@@ -56,7 +56,7 @@ def test_what_is_no_value_is_refused(name, value):
     with pytest.raises(RunPlanError, match=name):
         RunPlan().with_value(name, value)
     with pytest.raises(RunPlanError, match="preset"):
-        RunPlan().with_preset("luck")
+        RunPlan().with_preset("luck", PAPER)
 
 
 def test_frozen_rules_stay_frozen_while_the_table_is_edited():

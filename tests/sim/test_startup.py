@@ -6,7 +6,7 @@ from geswarm.sim import startup
 @pytest.fixture
 def mark(tmp_path, monkeypatch):
     path = tmp_path / "mark"
-    monkeypatch.setattr(startup, "_mark", lambda: path)
+    monkeypatch.setattr(startup, "_mark", lambda *_: path)
     return path
 
 
