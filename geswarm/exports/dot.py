@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from geswarm.exports.colours import behaviour_colours, css
 from geswarm.exports.layout import Lines, label_lines
-from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
@@ -28,12 +28,12 @@ def _lines(machine: StateMachine) -> Iterator[str]:
     yield '  edge [fontname="Helvetica", fontsize=10];'
     for at, state in enumerate(machine.states):
         code = machine.position(state.behaviour)
-        colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
+        colour = css(behaviour_colours(machine.space.vocabulary)[code])
         border = ", peripheries=2" if state.initial else ""
         yield f"  s{at} [label={_quoted(state.label)}, color={_quoted(colour)}{border}];"
     for (source, target), transitions in machine.between.items():
         code = machine.position(machine.states[source].behaviour)
-        colour = _quoted(BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)])
+        colour = _quoted(css(behaviour_colours(machine.space.vocabulary)[code]))
         label = _left(label_lines(machine, entry) for entry in transitions)
         yield f"  s{source} -> s{target} [label={label}, color={colour}];"
     yield "}"

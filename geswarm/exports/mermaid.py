@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 
+from geswarm.exports.colours import behaviour_colours, css
 from geswarm.exports.layout import label_lines
-from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
@@ -39,7 +39,7 @@ def _lines(machine: StateMachine) -> Iterator[str]:
         yield f"    s{source} --> s{target} : {label}"
     for at, state in enumerate(machine.states):
         code = machine.position(state.behaviour)
-        colour = BEHAVIOUR_COLOURS[code % len(BEHAVIOUR_COLOURS)]
+        colour = css(behaviour_colours(machine.space.vocabulary)[code])
         yield f"    classDef behaviour{at} stroke:{colour},stroke-width:3px"
         yield f"    class s{at} behaviour{at}"
 

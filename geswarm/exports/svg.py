@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
+from geswarm.exports.colours import behaviour_colours, css, tint
 from geswarm.exports.geometry import CORNER, Box, Path, Point
 from geswarm.exports.layout import (
     BRIEF,
@@ -31,10 +32,6 @@ from geswarm.rules.model import RuleSet
 from geswarm.rules.state_machine import StateMachine
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-BEHAVIOUR_COLOURS = ("#faa60a", "#1f63de", "#22b278", "#8c56c8", "#787878")
-"""Of each behaviour code, as in the arena; codes beyond begin again."""
-
-_TINTS = ("#fff3d9", "#e4ecfc", "#ddf5ea", "#efe6f8", "#ececec")
 _INK, _MUTED, _EFFECT, _PAPER = "#1d2733", "#5c6b7a", "#b3126f", "#ffffff"
 _HEADER, _FOOTER = 58.0, 34.0
 _HEAD_LENGTH, _HEAD_SPREAD = 14.0, 0.4  # of an arrowhead; half its width per length
@@ -104,8 +101,8 @@ def brief_svg(machine: StateMachine) -> str:
 def _colour(machine: StateMachine, state: int) -> tuple[str, str]:
     """Strong and pale colour of a state's behaviour."""
     code = machine.position(machine.states[state].behaviour)
-    at = code % len(BEHAVIOUR_COLOURS)
-    return BEHAVIOUR_COLOURS[at], _TINTS[at]
+    colour = behaviour_colours(machine.space.vocabulary)[code]
+    return css(colour), tint(colour)
 
 
 def _states(machine: StateMachine, layout: Layout, form: Form) -> Iterator[str]:

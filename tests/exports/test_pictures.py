@@ -9,11 +9,9 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given, settings
 
-from geswarm.app import palette
 from geswarm.exports import EXPORTS, brief_svg, machine_svg
 from geswarm.exports.geometry import Box
 from geswarm.exports.layout import BRIEF, FULL, lay_out
-from geswarm.exports.svg import BEHAVIOUR_COLOURS
 from geswarm.rules import RuleSet, StateMachine, load_preset
 from tests import strategies
 from tests.exports.test_exports import CROWDED, EVO8, HAND_CODED, NASTY
@@ -182,7 +180,3 @@ def test_text_in_the_picture_is_escaped():
     root = ElementTree.fromstring(EXPORTS["svg"](NASTY))
     titles = [entry.text for entry in root.iter(f"{SVG}text")]
     assert NASTY.name in titles
-
-
-def test_behaviours_have_the_colours_of_the_arena():
-    assert tuple(map(palette.css, palette.BEHAVIOURS)) == BEHAVIOUR_COLOURS
