@@ -179,13 +179,17 @@ def _counted_at(source: Source, at: Effect) -> list[Measure]:
     return [each for each in source.parts.measures if isinstance(each, Measure) and each.at is at]
 
 
-def count(source: Source, measure: Measure, where: str | None) -> None:
-    """Add what a measure counts for the robot of the lane, where it is to be counted."""
+def count(source: Source, measure: Measure, where: str | None, afresh: bool = False) -> None:
+    """Add what a measure counts for the robot of the lane, where it is to be counted.
+
+    If `afresh`, nothing of before counts.
+    """
     kind = source.parts.own_fields[measure.name]
     value = source.call(measure)
     if where:
         value = f"({value} if {where} else {zero(kind)})"
-    source(f"robot.{measure.name}[lane] = {plus(kind, f'robot.{measure.name}[lane]', value)}")
+    place = f"robot.{measure.name}[lane]"
+    source(f"{place} = {value if afresh else plus(kind, place, value)}")
 
 
 def move(source: Source) -> None:

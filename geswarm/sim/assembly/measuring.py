@@ -22,12 +22,9 @@ def measures(source: Source, at: str) -> None:
             source("robot = robots[i]")
             for measure in of_robots:
                 with source.lanes():
-                    if at == "end":
-                        kind = source.parts.own_fields[measure.name]
-                        source(f"robot.{measure.name}[lane] = {zero(kind)}")
                     exists = "robot.exists[lane] != I(0)" if source.layout.swarm else None
                     ground.prelude(source, measure)
-                    count(source, measure, exists)
+                    count(source, measure, exists, afresh=at == "end")
     for each in source.parts.measures:
         if isinstance(each, SwarmMeasure) and each.at == at:
             _of_the_swarm(source, each)

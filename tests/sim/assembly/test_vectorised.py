@@ -19,6 +19,8 @@ SCALAR = (
     "= arguments[work.place[lane], 0]",
     "decisions[work.place[lane]] +=",
     "work.touch[lane] = I(0)",  # becomes a call of memset
+    "to_light_x_here, to_light_y_here = ZERO, ZERO",  # no lamps: the same
+    "brightness_here = ZERO",
     "if work.happens[lane]:",  # rare
     "if work.touch[lane]:",
 )
@@ -40,7 +42,7 @@ def loops_that_are_not_vectorised(*what):
         number
         for number, line in enumerate(lines, 1)
         if re.search(r"for lane in range\((width|LANES)\):", line)
-        and not any(scalar in lines[number] for scalar in SCALAR)
+        and not any(scalar in "\n".join(lines[number : number + 2]) for scalar in SCALAR)
     ]
     assert len(heads) > 10
     # LLVM names the head of a loop or, where it was turned round, its first line.

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from geswarm.rules import ControlTable, RuleSetError, Space
 from geswarm.sim import World, parts_of
+from geswarm.sim.program import Instances
 from geswarm.sim.spaces import sensed_values, state_values
 from geswarm.sim.tables import compile_controllers
 from tests.sim.terms.scenarios import COUNTING, REMEMBERING, SENSING, rule_sets
@@ -115,12 +116,11 @@ def test_a_table_draws_what_the_rules_say(scenario, data, miss):
     fails = [miss if sensor.fails else 0.0 for sensor in parts.sensors]
     assert parts.sensors[0].fails == "zone_miss"
     controllers = compile_controllers([rule_set], fails, parts)
-    terms = [*parts.plain_behaviours]
-    terms += [term for term in mentioned(rule_set) if term not in terms]
+    terms = list(Instances.of(rule_set, parts).terms)
     states = list(states_of(parts, exact.space))
     places = st.tuples(st.integers(0, parts.sensed_codes - 1), st.sampled_from(states))
     for sensed, state in data.draw(st.lists(places, min_size=8, max_size=8)):
-        for term in exact.space.behaviours:
+        for term in set(exact.space.behaviours) & set(terms):  # no action starts the others
             at = terms.index(term)
             found = {}
             for key, p in drawn(controllers, code_of(parts, sensed, state), at, state).items():
@@ -136,14 +136,6 @@ def test_a_table_draws_what_the_rules_say(scenario, data, miss):
                 p = (1 - miss) * noticed.get(outcome, 0) + miss * unnoticed.get(outcome, 0)
                 assert found.get(outcome, 0) == pytest.approx(p, abs=2.0**-20)
                 assert p > 0 or found.get(outcome, 0) == 0
-
-
-def mentioned(rule_set):
-    """Behaviours in the order in which they are numbered."""
-    for rule in rule_set.rules:
-        yield from rule.behaviours
-        for action in rule.actions:
-            yield from action.behaviours
 
 
 @given(data=st.data(), seed=st.integers(0, 2**32))
