@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from geswarm.rules import ControlTable, RuleSetError, Space
 from geswarm.sim import World, parts_of
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS
 from geswarm.sim.program import Instances
 from geswarm.sim.spaces import sensed_values, state_values
 from geswarm.sim.tables import compile_controllers
@@ -46,7 +47,7 @@ def drawn(controllers, code, instance, state):
     """{(instance, registers, restart): probability} that a table draws."""
     tables, parts = controllers.tables, controllers.parts
     first_code, first_row, _ = tables.begins[0]
-    row = first_row + 16 * int(tables.classes[first_code + code]) + instance
+    row = first_row + ROW_BEHAVIOURS * int(tables.classes[first_code + code]) + instance
     first_slot, bits = divmod(int(tables.rows[row]), 8)
     found = {}
     for slot in range(first_slot, first_slot + (1 << bits)):
