@@ -86,10 +86,10 @@ def expected(table, parts, terms, sensed, state, instance):
 
 
 def states_of(parts, space):
-    """All states in which what the space does not know is as initially."""
+    """All states at the start of a step; what is momentary or not in the space is as initially."""
     known = {each.name for each in space.internal_states}
     choices = [
-        range(each.values) if each.word.name in known else [each.initially]
+        range(each.values) if each.word.name in known and not each.momentary else [each.initially]
         for each in parts.registers
     ]
     shifts = [parts.shifts[each.name] for each in parts.registers]
