@@ -46,7 +46,7 @@ def test_the_published_rules_collect_what_is_published(experiment):
             assert one.tolist() == other.tolist(), case
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_quick_goes_the_first_steps_of_the_published_campaign(tmp_path, capsys):
     """`--quick` as it is: its evolutionary runs are the beginnings of the published ones."""
     place = tmp_path / "quick"

@@ -12,8 +12,16 @@ from tests.sim.assembly import ground_twin as twin
 from tests.sim.assembly.arenas import KINDS, MARGIN, PAPER, RADIUS, Run
 
 LANES, SWARM = Layout(), Layout(swarm=True)
-kinds = pytest.mark.parametrize("kind", KINDS)
-layouts = pytest.mark.parametrize("layout", [LANES, SWARM], ids=lambda layout: layout.name)
+USUAL = ("convex", "star")
+kinds = pytest.mark.parametrize(
+    "kind",
+    [kind if kind in USUAL else pytest.param(kind, marks=pytest.mark.long) for kind in KINDS],
+)
+layouts = pytest.mark.parametrize(
+    "layout",
+    [LANES, pytest.param(SWARM, marks=pytest.mark.long)],
+    ids=lambda layout: layout.name,
+)
 SENSED = RADIUS + PAPER.proximity_range
 DOUBT = 1e-5  # m: positions and shapes are rounded to single precision
 

@@ -67,7 +67,7 @@ def test_every_loop_of_the_other_scenarios_is_vectorised(scenario):
     assert loops_that_are_not_vectorised("lanes", scenario) == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("arena", KINDS)
 def test_every_loop_is_vectorised_in_arenas_of_every_form(arena):
     assert loops_that_are_not_vectorised("lanes", arena) == []
