@@ -51,7 +51,9 @@ def test_every_parameter_has_an_explanation():
 def test_nothing_is_looked_up_while_no_page_is_in_view(talker):
     talker.page.sync(WATCHED_SECONDS)
     sent = len(talker.page.channel.messages)
-    talker.session.runs.plan = talker.session.runs.plan.with_preset("modern")
+    talker.session.runs.plan = talker.session.runs.plan.with_preset(
+        "modern", talker.session.scenario
+    )
     talker.page.sync(0.1)
     assert len(talker.page.channel.messages) == sent
     talker.say("watch")
