@@ -193,10 +193,10 @@ def test_the_best_does_not_fall_without_a_word(talker):
     curves = talker.last("curves")
     assert curves["reevaluated"]
     run = EvolutionRun.resume(f"runs/{name}")
-    run._store._connection.execute("UPDATE generation SET best_so_far = 9 WHERE generation = 1")
+    run._store._connection.execute("UPDATE generation SET best_so_far = 99 WHERE generation = 1")
     run.close()
-    talker.until(lambda: "re-evaluated: 9.0 → " in talker.run(name)["fall"])
-    talker.until(lambda: "re-evaluated: 9.0 → " in talker.last("status")["about"]["fall"])
+    talker.until(lambda: "re-evaluated: 99.0 → " in talker.run(name)["fall"])
+    talker.until(lambda: "re-evaluated: 99.0 → " in talker.last("status")["about"]["fall"])
 
 
 def population(*behaviours):
