@@ -155,12 +155,13 @@ def deepest_overlap(world):
 
 @given(roomy_scenarios(), rule_sets, st.integers(0, 1000))
 @settings(max_examples=40)
-def test_bodies_overlap_by_no_more_than_two_go_in_a_step(scenario, rule_set, seed):
+def test_bodies_overlap_by_no_more_than_two_pairs_go_in_a_step(scenario, rule_set, seed):
+    """What a pair goes towards each other, and as much again: a third one may push it back."""
     world = World(scenario, rule_set, seed)
     assume(deepest_overlap(world) <= 0)
     for _ in range(100):
         world.step()
-        assert deepest_overlap(world) <= 2 * scenario.max_speed * CONTROL_STEP
+        assert deepest_overlap(world) <= 2 * 2 * scenario.max_speed * CONTROL_STEP
 
 
 @pytest.mark.long

@@ -31,7 +31,7 @@ def test_it_is_the_papers_campaign_and_every_claim_holds():
     assert {claim.verdict for claim in claims(results)} == {Verdict.HOLDS}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("experiment", EXPERIMENTS)
 def test_the_published_rules_collect_what_is_published(experiment):
     results = published()

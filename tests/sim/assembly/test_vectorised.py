@@ -51,7 +51,7 @@ def loops_that_are_not_vectorised(*what):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("layout", ["lanes", "swarm"])
+@pytest.mark.parametrize("layout", ["lanes", pytest.param("swarm", marks=pytest.mark.long)])
 def test_every_loop_over_lanes_is_vectorised(layout):
     assert loops_that_are_not_vectorised(layout) == []
 

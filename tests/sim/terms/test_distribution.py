@@ -36,7 +36,11 @@ RULES = {
 }
 
 
-@pytest.mark.parametrize("scenario", [AAC, REMEMBERING, SENSING], ids=lambda each: each.name)
+@pytest.mark.parametrize(
+    "scenario",
+    [AAC, *(pytest.param(each, marks=pytest.mark.long) for each in (REMEMBERING, SENSING))],
+    ids=lambda each: each.name,
+)
 def test_worlds_and_batches_are_alike(scenario):
     scenario = scenario.with_changes(duration=30.0)
     rules, runs = RULES[scenario.name], range(80)
