@@ -252,7 +252,7 @@ def test_a_damaged_run_is_told_and_nothing_else_happens(talker):
     database.write_text("damaged" * 100)
     talker.until(lambda: talker.run(name)["phase"] == "FAILED")
     assert "no database" in talker.run(name)["problem"]
-    assert "no database" in talker.last("status")["problem"]
+    talker.until(lambda: "no database" in talker.last("status")["problem"])
     talker.say("resume", name=name, instead=False)
     talker.until(lambda: talker.evolution.phase is Phase.FAILED)
     assert "no database" in talker.evolution.error
