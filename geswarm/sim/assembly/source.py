@@ -95,7 +95,7 @@ class Source:
         return f"{component.name}({', '.join(arguments)})"
 
     def _given(self, component: Component) -> str:
-        """What a component without a function is: its names as bits, or the greatest of them."""
+        """What a component without a function is: its names as bits, or the only one of them."""
         first, *others = (self.means(name, "robot", "lane") for name in component.given)
         value = first
         for at, other in enumerate(others, start=1):
