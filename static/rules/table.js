@@ -59,13 +59,22 @@ export class RuleTable {
     this.session.edit(() => edits.addRule(this.cards.length, EMPTY_RULE));
   }
 
-  /** Let the cards glide to their new places, so that the eye can follow. */
-  #glide(before) {
+  /**
+   * Let the cards glide to their new places, so that the eye can follow.
+   *
+   * Meanwhile the list is clipped: cards that come up from below would make the page longer, and what
+   * stands under them would scroll away from a finger that is on it.
+   */
+  async #glide(before) {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+    const glides = [];
     for (const card of this.cards) {
       const moved = before.get(card) - card.node.offsetTop;
-      if (!before.has(card)) card.node.animate([{ opacity: 0 }, {}], GLIDE);
-      else if (moved) card.node.animate([{ transform: `translateY(${moved}px)` }, {}], GLIDE);
+      if (!before.has(card)) glides.push(card.node.animate([{ opacity: 0 }, {}], GLIDE));
+      else if (moved) glides.push(card.node.animate([{ transform: `translateY(${moved}px)` }, {}], GLIDE));
     }
+    this.list.classList.add("gliding");
+    await Promise.allSettled(glides.map(({ finished }) => finished));
+    this.list.classList.remove("gliding");
   }
 }
