@@ -28,11 +28,11 @@ from geswarm.sim import (
     load_scenario,
 )
 from geswarm.sim.batch import Group
-from geswarm.sim.encoding import fails
+from geswarm.sim.controllers.encoding import fails
+from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.library import parts_of
+from geswarm.sim.library.vocabulary import parts_of
 from geswarm.sim.startup import warm_up
-from geswarm.sim.tables import compile_controllers
 
 Report: TypeAlias = Callable[[str], None]
 

@@ -14,10 +14,10 @@ from geswarm.bench import Report, processor
 from geswarm.rules import RuleSet, RuleSetError, Vocabulary, load_rule_set
 from geswarm.sim import Scenario, ScenarioError, parts_of, vocabulary_of
 from geswarm.sim.batch import Group, runs_side_by_side
-from geswarm.sim.encoding import fails
+from geswarm.sim.controllers.encoding import fails
+from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.kernels.state import LANES
 from geswarm.sim.swarm import Swarm
-from geswarm.sim.tables import compile_controllers
 from geswarm.sim.terms.parts import PartsError
 
 Run: TypeAlias = Callable[[], None]

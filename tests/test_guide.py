@@ -13,10 +13,10 @@ from geswarm.cli import main as geswarm
 from geswarm.evaluation import evaluate_rule_sets
 from geswarm.rules import load_rule_set
 from geswarm.sim import ScenarioError, load_scenario, parse_scenario, terms, vocabulary_of
-from geswarm.sim.arena_file import ARENA_KEYS
-from geswarm.sim.scenario_checks import PARAMETERS
-from geswarm.sim.scenario_words import WORDS
-from geswarm.sim.terms_page import terms_page
+from geswarm.sim.arena.file import ARENA_KEYS
+from geswarm.sim.library.page import terms_page
+from geswarm.sim.scenario.checks import PARAMETERS
+from geswarm.sim.scenario.words import WORDS
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -169,7 +169,7 @@ def test_everything_that_own_terms_import_is_in_the_guide():
 
 
 def test_the_page_of_all_terms_is_that_of_the_library():
-    """`python -m geswarm.sim.terms_page > static/guide/terms.md` writes it."""
+    """`python -m geswarm.sim.library.page > static/guide/terms.md` writes it."""
     assert GUIDE["terms"] == terms_page()
 
 

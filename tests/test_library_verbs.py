@@ -6,7 +6,7 @@ import pytest
 
 from geswarm.cli import main
 from geswarm.sim import load_scenario, scenario_names
-from geswarm.sim.library import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS
+from geswarm.sim.library.vocabulary import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS
 
 
 @pytest.fixture(autouse=True)

@@ -10,7 +10,7 @@ from typing import Any
 import viser
 
 from geswarm.sim import NEEDS_RESET, Scenario
-from geswarm.sim.arena import Box
+from geswarm.sim.arena.model import Box
 
 from ..state.session import Session
 from .widgets import Mirror, Refusal

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from scipy.ndimage import minimum_filter
 
 from geswarm.sim import Scenario
-from geswarm.sim.arena import Arena, Patch
-from geswarm.sim.arena_geometry import corners, distances
+from geswarm.sim.arena.geometry import corners, distances
+from geswarm.sim.arena.model import Arena, Patch
 
 from .. import palette
 from ..palette import Colour

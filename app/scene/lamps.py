@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from geswarm.sim.arena import Arena, Light
-from geswarm.sim.arena_geometry import distances
+from geswarm.sim.arena.geometry import distances
+from geswarm.sim.arena.model import Arena, Light
 
 from .. import palette
 from ..palette import Colour

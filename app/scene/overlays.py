@@ -11,8 +11,8 @@ import numpy.typing as npt
 import viser
 
 from geswarm.sim import Scenario, vocabulary_of
-from geswarm.sim.arena import Box, Outline
-from geswarm.sim.arena_geometry import corners, distances
+from geswarm.sim.arena.geometry import corners, distances
+from geswarm.sim.arena.model import Box, Outline
 from geswarm.sim.footbot import RADIUS
 
 from .. import palette

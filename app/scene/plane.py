@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim.arena import Plain
-from geswarm.sim.arena_geometry import corners
+from geswarm.sim.arena.geometry import corners
+from geswarm.sim.arena.model import Plain
 
 from .shapes import Mesh, merged
 

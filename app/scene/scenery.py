@@ -7,8 +7,8 @@ import numpy.typing as npt
 import viser
 
 from geswarm.sim import Scenario
-from geswarm.sim.arena import Obstacle
-from geswarm.sim.arena_geometry import corners
+from geswarm.sim.arena.geometry import corners
+from geswarm.sim.arena.model import Obstacle
 
 from .. import palette
 from ..palette import Colour

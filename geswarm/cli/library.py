@@ -12,7 +12,7 @@ from geswarm.cli.output import print_texts
 if TYPE_CHECKING:
     from geswarm.rules.arguments import Argument
     from geswarm.sim import Scenario
-    from geswarm.sim.catalogue import Entry
+    from geswarm.sim.library.catalogue import Entry
 
 
 def add_library_verbs(verbs: Verbs) -> None:
@@ -75,7 +75,7 @@ def _scenario(scenario: Scenario, about: str) -> dict[str, Any]:
 
 def _terms(options: argparse.Namespace) -> int:
     from geswarm.sim import ScenarioError, load_scenario
-    from geswarm.sim.catalogue import catalogue
+    from geswarm.sim.library.catalogue import catalogue
 
     try:
         scenario = None if options.scenario is None else load_scenario(options.scenario)

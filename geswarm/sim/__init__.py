@@ -39,9 +39,8 @@ Any scenario, with words, measures and an objective of its own:
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, can_run, evaluate
 from geswarm.sim.cores import available_cores
-from geswarm.sim.library import TermError, parts_of, vocabulary_of
-from geswarm.sim.objective import Objective, ObjectiveError
-from geswarm.sim.scenario import (
+from geswarm.sim.library.vocabulary import TermError, parts_of, vocabulary_of
+from geswarm.sim.scenario.model import (
     Scenario,
     ScenarioError,
     load_scenario,
@@ -49,6 +48,7 @@ from geswarm.sim.scenario import (
     scenario_about,
     scenario_names,
 )
+from geswarm.sim.scenario.objective import Objective, ObjectiveError
 from geswarm.sim.startup import is_compiled, warm_up
 from geswarm.sim.world import NEEDS_RESET, World, WorldState, can_go_on
 

@@ -20,15 +20,15 @@ from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import OBJECT, Records, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
+from geswarm.sim.controllers.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
+from geswarm.sim.controllers.program import Instances
+from geswarm.sim.controllers.tables import Controller, Controllers, compile_controllers
 from geswarm.sim.cores import available_cores
-from geswarm.sim.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.library import parts_of
-from geswarm.sim.objective import OF_THE_RUN
-from geswarm.sim.program import Instances
-from geswarm.sim.scenario import Scenario
+from geswarm.sim.library.vocabulary import parts_of
+from geswarm.sim.scenario.model import Scenario
+from geswarm.sim.scenario.objective import OF_THE_RUN
 from geswarm.sim.swarm import Swarm
-from geswarm.sim.tables import Controller, Controllers, compile_controllers
 
 _ROBOT_STEPS_PER_CALL = 2_000_000
 """Work between two looks at `stop`: up to about a tenth of a second."""

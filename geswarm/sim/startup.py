@@ -19,13 +19,13 @@ from geswarm.sim import compiled
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.batch import evaluate
+from geswarm.sim.controllers.encoding import fails
+from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.cores import available_cores
-from geswarm.sim.encoding import fails
 from geswarm.sim.kernels import cache
 from geswarm.sim.kernels.jit import vector_settings
-from geswarm.sim.library import parts_of
-from geswarm.sim.scenario import Scenario, load_scenario
-from geswarm.sim.tables import compile_controllers
+from geswarm.sim.library.vocabulary import parts_of
+from geswarm.sim.scenario.model import Scenario, load_scenario
 from geswarm.sim.world import World
 
 COMPILING = "Compiling the simulator for this machine, once: about 25 s …"

@@ -10,10 +10,16 @@ import numpy.typing as npt
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import robot_type, work_type
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.encoding import fill_robots, grid_for, is_wide, numbers_by_name, start_of
+from geswarm.sim.controllers.encoding import (
+    fill_robots,
+    grid_for,
+    is_wide,
+    numbers_by_name,
+    start_of,
+)
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.library import parts_of
-from geswarm.sim.scenario import Scenario
+from geswarm.sim.library.vocabulary import parts_of
+from geswarm.sim.scenario.model import Scenario
 
 _MOST_PAIRS = 100_000_000
 

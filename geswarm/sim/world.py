@@ -15,19 +15,19 @@ from geswarm.rules.names import require_known_names
 from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import Vocabulary
 from geswarm.sim import footbot
+from geswarm.sim.arena.places import is_in_area, nearest_free, nearest_in_source
 from geswarm.sim.batch import fitness_of
-from geswarm.sim.encoding import fails
-from geswarm.sim.library import parts_of
-from geswarm.sim.places import is_in_area, nearest_free, nearest_in_source
-from geswarm.sim.program import Instances, chances, rules_to_interpret
-from geswarm.sim.scenario import Scenario
-from geswarm.sim.spaces import (
+from geswarm.sim.controllers.encoding import fails
+from geswarm.sim.controllers.program import Instances, chances, rules_to_interpret
+from geswarm.sim.controllers.spaces import (
     behaviours_of,
     counted_in,
     sensed_values,
     state_values,
     states_of_bits,
 )
+from geswarm.sim.library.vocabulary import parts_of
+from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.swarm import Swarm
 
 NEEDS_RESET = ("robots", "objects", "width", "length", "nest", "source")

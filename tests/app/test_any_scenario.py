@@ -9,7 +9,7 @@ from geswarm.app.dashboard import open_dashboard
 from geswarm.app.state.references import first_rules
 from geswarm.rules import find_rule_set, parse_yaml
 from geswarm.sim import load_scenario, vocabulary_of
-from geswarm.sim.arena_geometry import corners
+from geswarm.sim.arena.geometry import corners
 from tests.app.test_dashboard import PATIENCE, wait_until
 
 sync_api = pytest.importorskip("playwright.sync_api")

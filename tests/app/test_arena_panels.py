@@ -19,7 +19,7 @@ from geswarm.app.state.score import score
 from geswarm.app.state.session import Session
 from geswarm.rules import Rule, RuleSet, load_preset
 from geswarm.sim import NEEDS_RESET, World, load_scenario, vocabulary_of
-from geswarm.sim.scenario_checks import PARAMETERS
+from geswarm.sim.scenario.checks import PARAMETERS
 
 PAPER = load_scenario("paper")
 SETTING = Setting(PAPER, False, 0, (("EVO 8", load_preset("evo8")),))

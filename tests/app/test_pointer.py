@@ -10,7 +10,7 @@ from geswarm.app.scene.pointer import Pointer, on_level
 from geswarm.app.state.swarm import ShownSwarm
 from geswarm.rules import RuleSet
 from geswarm.sim import World, load_scenario
-from geswarm.sim.arena_geometry import distances
+from geswarm.sim.arena.geometry import distances
 
 coordinate = st.floats(-10, 10)
 

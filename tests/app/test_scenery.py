@@ -19,8 +19,8 @@ from geswarm.app.scene.scenery import outer_points
 from geswarm.app.state.trace import PathTrace
 from geswarm.rules import RuleSet
 from geswarm.sim import World, load_scenario
-from geswarm.sim.arena import Arena, Box, Disc, HalfPlane, Light, Patch, Polygon, regular
-from geswarm.sim.arena_geometry import corners, distances, signed_area
+from geswarm.sim.arena.geometry import corners, distances, signed_area
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Light, Patch, Polygon, regular
 
 CONCAVE = Polygon(
     (

@@ -35,9 +35,9 @@ from geswarm.rules import (
 )
 from geswarm.rules.as_json import rule_set_to_json
 from geswarm.sim import ScenarioError, load_scenario, parse_scenario
-from geswarm.sim.encoding import scenario_numbers
-from geswarm.sim.scenario_checks import PARAMETERS
-from geswarm.sim.scenario_words import WORDS
+from geswarm.sim.controllers.encoding import scenario_numbers
+from geswarm.sim.scenario.checks import PARAMETERS
+from geswarm.sim.scenario.words import WORDS
 from tests.robustness import mutations
 from tests.strategies import documented_rule_sets
 

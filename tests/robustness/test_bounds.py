@@ -10,7 +10,7 @@ from geswarm.rules import RuleSetError, apply_edit, load_preset, load_rule_set, 
 from geswarm.rules.control_table import apply_rule
 from geswarm.rules.edits import EditError
 from geswarm.sim import ScenarioError, load_scenario, parse_scenario
-from geswarm.sim.scenario_checks import PARAMETERS
+from geswarm.sim.scenario.checks import PARAMETERS
 
 PAPER = load_scenario("paper")
 EVO8 = load_preset("evo8")

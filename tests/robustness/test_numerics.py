@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 
 from geswarm.rules import ControlTable, RuleSet
 from geswarm.sim import CONTROL_STEP, World, evaluate, footbot, load_scenario
-from geswarm.sim.scenario import ScenarioError
-from geswarm.sim.scenario_checks import PARAMETERS
+from geswarm.sim.scenario.checks import PARAMETERS
+from geswarm.sim.scenario.model import ScenarioError
 from tests.strategies import any_probabilities, rules
 
 PAPER = load_scenario("paper")

@@ -6,7 +6,7 @@ import math
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from geswarm.sim.arena import (
+from geswarm.sim.arena.model import (
     COLOURS,
     SIDES,
     Arena,
@@ -19,8 +19,8 @@ from geswarm.sim.arena import (
     Polygon,
     regular,
 )
-from geswarm.sim.objective import Objective
-from geswarm.sim.scenario import Scenario, ScenarioError
+from geswarm.sim.scenario.model import Scenario, ScenarioError
+from geswarm.sim.scenario.objective import Objective
 
 coordinates = st.floats(-2.0, 2.0)
 sizes = st.floats(0.05, 3.0)

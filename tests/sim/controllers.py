@@ -1,8 +1,8 @@
 """Control tables of rule sets for the robots of a scenario."""
 
-from geswarm.sim.encoding import fails
-from geswarm.sim.library import parts_of
-from geswarm.sim.tables import compile_controllers
+from geswarm.sim.controllers.encoding import fails
+from geswarm.sim.controllers.tables import compile_controllers
+from geswarm.sim.library.vocabulary import parts_of
 
 
 def controllers_for(controllers, scenario):

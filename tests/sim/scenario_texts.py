@@ -3,7 +3,7 @@
 import pytest
 import yaml
 
-from geswarm.sim.scenario import ScenarioError, parse_scenario
+from geswarm.sim.scenario.model import ScenarioError, parse_scenario
 
 PLAIN = """
 extends: nothing

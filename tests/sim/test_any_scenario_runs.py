@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from geswarm.rules import RuleSet
 from geswarm.sim import Objective, ScenarioError, World, evaluate
-from geswarm.sim.arena_geometry import distances
+from geswarm.sim.arena.geometry import distances
 from geswarm.sim.footbot import RADIUS
 from geswarm.sim.terms.ground import GroundError
 from geswarm.sim.terms.parts import PartsError

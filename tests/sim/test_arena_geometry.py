@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geswarm.sim.arena import Arena, Band, Box, Disc, HalfPlane, Polygon, normalised
-from geswarm.sim.arena_checks import has_room_for_objects, room_at_start
-from geswarm.sim.arena_geometry import (
+from geswarm.sim.arena.checks import has_room_for_objects, room_at_start
+from geswarm.sim.arena.geometry import (
     corners,
     crosses_itself,
     distances,
@@ -17,6 +16,7 @@ from geswarm.sim.arena_geometry import (
     overlap,
     signed_area,
 )
+from geswarm.sim.arena.model import Arena, Band, Box, Disc, HalfPlane, Polygon, normalised
 from tests.sim.any_scenario import arenas, boxes, discs, polygons, shapes
 
 plain = shapes.filter(lambda shape: not isinstance(shape, Band))

@@ -10,7 +10,7 @@ from scipy import stats
 from geswarm.rules import ControlTable, load_preset
 from geswarm.sim import batch
 from geswarm.sim.batch import evaluate
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario.model import load_scenario
 from geswarm.sim.world import World
 
 CASES = json.loads(Path(__file__).with_name("argos_reference.json").read_text())["cases"]

@@ -17,7 +17,7 @@ from geswarm.rules import (
 )
 from geswarm.sim import batch
 from geswarm.sim.batch import EvaluationStopped, Simulation, evaluate, runs_side_by_side
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario.model import load_scenario
 
 TABLES = [ControlTable.compile(load_preset(name)) for name in ("hand-coded", "evo8")]
 SHORT = load_scenario("flexibility-5").with_changes(duration=300.0)

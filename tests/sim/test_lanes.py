@@ -9,7 +9,7 @@ from numba import njit
 from geswarm.rules import FORAGING, RuleSet, load_preset
 from geswarm.sim import batch
 from geswarm.sim.kernels import single
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario.model import load_scenario
 from tests.sim import oracle
 from tests.sim.controllers import controllers_for
 

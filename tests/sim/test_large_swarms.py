@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from geswarm.rules import RuleSet, load_preset
-from geswarm.sim import encoding
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.controllers import encoding
+from geswarm.sim.scenario.model import load_scenario
 from geswarm.sim.world import World
 from tests.sim import oracle
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from geswarm.rules import FORAGING, Rule, RuleSet, load_preset
 from geswarm.sim import batch, footbot
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario.model import load_scenario
 from geswarm.sim.world import World
 from tests.sim import oracle
 from tests.sim.controllers import controllers_for

@@ -5,16 +5,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geswarm.sim.arena import Arena, Band, Box, Light, Patch
-from geswarm.sim.objective import Objective
-from geswarm.sim.scenario import (
+from geswarm.sim.arena.model import Arena, Band, Box, Light, Patch
+from geswarm.sim.scenario.checks import PARAMETERS
+from geswarm.sim.scenario.model import (
     Scenario,
     ScenarioError,
     load_scenario,
     parse_scenario,
     scenario_names,
 )
-from geswarm.sim.scenario_checks import PARAMETERS
+from geswarm.sim.scenario.objective import Objective
 
 PAPER = load_scenario("paper")
 

@@ -7,14 +7,24 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geswarm.sim import scenario as scenario_module
-from geswarm.sim import scenario_file
-from geswarm.sim.arena import Arena, Band, Box, Disc, HalfPlane, Light, Patch, Polygon, regular
-from geswarm.sim.arena_file import ARENA_KEYS
-from geswarm.sim.arena_geometry import corners, signed_area
-from geswarm.sim.objective import Objective
-from geswarm.sim.scenario import Scenario, ScenarioError, load_scenario, parse_scenario
-from geswarm.sim.scenario_words import WORDS
+from geswarm.sim.arena.file import ARENA_KEYS
+from geswarm.sim.arena.geometry import corners, signed_area
+from geswarm.sim.arena.model import (
+    Arena,
+    Band,
+    Box,
+    Disc,
+    HalfPlane,
+    Light,
+    Patch,
+    Polygon,
+    regular,
+)
+from geswarm.sim.scenario import file as scenario_file
+from geswarm.sim.scenario import model as scenario_module
+from geswarm.sim.scenario.model import Scenario, ScenarioError, load_scenario, parse_scenario
+from geswarm.sim.scenario.objective import Objective
+from geswarm.sim.scenario.words import WORDS
 from tests.sim.any_scenario import scenarios
 from tests.sim.scenario_texts import PLAIN, arena, messages
 

@@ -8,8 +8,8 @@ from scipy.spatial import cKDTree
 
 from geswarm.rules import RuleSet, load_preset
 from geswarm.sim import World, batch, footbot, load_scenario
-from geswarm.sim.scenario import ScenarioError
-from geswarm.sim.scenario_checks import robots_in_nest
+from geswarm.sim.scenario.checks import robots_in_nest
+from geswarm.sim.scenario.model import ScenarioError
 from tests.sim import oracle
 from tests.sim.controllers import controllers_for
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, Space, StateChange
 from geswarm.sim import load_scenario, parts_of
+from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
-from geswarm.sim.tables import compile_controllers
 from tests.strategies import any_probabilities, plain_rule_sets
 
 PARTS = parts_of(load_scenario("paper"))

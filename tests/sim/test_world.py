@@ -14,7 +14,7 @@ from geswarm.rules import (
     StateChange,
     load_preset,
 )
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.scenario.model import load_scenario
 from geswarm.sim.world import World
 
 PAPER = load_scenario("paper")

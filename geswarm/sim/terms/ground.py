@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from geswarm.sim.arena import Arena, Box, Disc, HalfPlane, Outline, Point, Polygon, Shape
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Outline, Point, Polygon, Shape
 
 MOST_SIDES = 64
 """Most sides of a polygon: each is a line of source in several loops."""

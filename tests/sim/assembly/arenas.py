@@ -8,15 +8,15 @@ import numpy as np
 from hypothesis import strategies as st
 
 from geswarm.sim import footbot, load_scenario
-from geswarm.sim.arena import Arena, Band, Box, Disc, Light, Patch, Polygon, regular
-from geswarm.sim.arena_numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.model import Arena, Band, Box, Disc, Light, Patch, Polygon, regular
+from geswarm.sim.arena.numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.start_places import places_of, spots_of
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.compiled import start_all
-from geswarm.sim.encoding import fill_robots, grid_for, scenario_numbers
+from geswarm.sim.controllers.encoding import fill_robots, grid_for, scenario_numbers
 from geswarm.sim.kernels.state import LANES, ROBOT, SLOT, Beginning
-from geswarm.sim.start_places import places_of, spots_of
 from geswarm.sim.terms import avoidance, light, objects, walk
 from geswarm.sim.terms.declare import measure, percept, sensor
 from geswarm.sim.terms.ground import Ground

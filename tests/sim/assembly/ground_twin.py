@@ -2,7 +2,7 @@
 
 import math
 
-from geswarm.sim.arena import Box, Disc, HalfPlane, Polygon
+from geswarm.sim.arena.model import Box, Disc, HalfPlane, Polygon
 
 
 def frame(box, x, y):

@@ -28,8 +28,8 @@ from geswarm.sim import load_scenario, scenario_names  # noqa: E402
 from geswarm.sim.assembly import records  # noqa: E402
 from geswarm.sim.assembly.kernel import assemble  # noqa: E402
 from geswarm.sim.assembly.source import Layout  # noqa: E402
-from geswarm.sim.encoding import grid_for  # noqa: E402
-from geswarm.sim.library import parts_of  # noqa: E402
+from geswarm.sim.controllers.encoding import grid_for  # noqa: E402
+from geswarm.sim.library.vocabulary import parts_of  # noqa: E402
 
 PAPER = load_scenario("paper")
 PARTS = parts_of(PAPER)

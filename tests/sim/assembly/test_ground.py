@@ -6,8 +6,8 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
+from geswarm.sim.arena.start_places import room_for
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.start_places import room_for
 from tests.sim.assembly import ground_twin as twin
 from tests.sim.assembly.arenas import KINDS, MARGIN, PAPER, RADIUS, Run
 

@@ -11,9 +11,9 @@ from geswarm.sim.assembly import loading
 from geswarm.sim.assembly.kernel import assemble, source_of
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type, work_type
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.encoding import numbers_by_name
-from geswarm.sim.library import parts_of
-from geswarm.sim.scenario import load_scenario
+from geswarm.sim.controllers.encoding import numbers_by_name
+from geswarm.sim.library.vocabulary import parts_of
+from geswarm.sim.scenario.model import load_scenario
 from geswarm.sim.terms.parts import PartsError
 from tests.sim.assembly import gathering
 

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from geswarm.rules import ControlTable, RuleSetError, Space
 from geswarm.sim import World, parts_of
+from geswarm.sim.controllers.program import Instances
+from geswarm.sim.controllers.spaces import sensed_values, state_values
+from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
-from geswarm.sim.program import Instances
-from geswarm.sim.spaces import sensed_values, state_values
-from geswarm.sim.tables import compile_controllers
 from tests.sim.terms.scenarios import COUNTING, REMEMBERING, SENSING, rule_sets
 
 scenarios = pytest.mark.parametrize(

@@ -1,10 +1,10 @@
-"""The page of all terms in Markdown: `python -m geswarm.sim.terms_page > static/guide/terms.md`."""
+"""The page of all terms: `python -m geswarm.sim.library.page > static/guide/terms.md`."""
 
 from __future__ import annotations
 
 from geswarm.rules.arguments import Argument
 from geswarm.rules.model import format_value
-from geswarm.sim.catalogue import Entry, catalogue
+from geswarm.sim.library.catalogue import Entry, catalogue
 
 _HEAD = """# All terms and measures
 

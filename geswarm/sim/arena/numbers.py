@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geswarm.sim.arena import Arena, Box, Disc, HalfPlane, Polygon
-from geswarm.sim.shapes import Extent, turn_of
-from geswarm.sim.source_place import box_numbers, in_single, where_objects_lie
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Polygon
+from geswarm.sim.arena.shapes import Extent, turn_of
+from geswarm.sim.arena.source_place import box_numbers, in_single, where_objects_lie
 
 _SLACK = 1e-3
 """By which share of its radius a body may be pressed into a wall."""

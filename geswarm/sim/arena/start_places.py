@@ -8,12 +8,12 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim.arena import Arena, Box, Disc, Polygon
-from geswarm.sim.arena_numbers import walls
+from geswarm.sim.arena.model import Arena, Box, Disc, Polygon
+from geswarm.sim.arena.numbers import walls
+from geswarm.sim.arena.shapes import Extent, around_origin, corners_of, extent_of, turn_of
+from geswarm.sim.arena.source_place import box_numbers, where_objects_lie
 from geswarm.sim.compiled import look_around
 from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TURNED, NO_PLACE, Places
-from geswarm.sim.shapes import Extent, around_origin, corners_of, extent_of, turn_of
-from geswarm.sim.source_place import box_numbers, where_objects_lie
 from geswarm.sim.terms.ground import GroundError
 
 _MOST_SAMPLES = 1_000_000

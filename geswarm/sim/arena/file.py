@@ -8,7 +8,17 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from geswarm.rules.findings import Place
-from geswarm.sim.arena import (
+from geswarm.sim.arena.checks import (
+    COORDINATE,
+    MOST,
+    NUMBERS,
+    SIZE,
+    area_problem,
+    choice_problem,
+    point_problem,
+    polygon_problem,
+)
+from geswarm.sim.arena.model import (
     COLOURS,
     SIDES,
     ZONES,
@@ -26,18 +36,8 @@ from geswarm.sim.arena import (
     normalised,
     regular,
 )
-from geswarm.sim.arena_checks import (
-    COORDINATE,
-    MOST,
-    NUMBERS,
-    SIZE,
-    area_problem,
-    choice_problem,
-    point_problem,
-    polygon_problem,
-)
 from geswarm.sim.parameter import Parameter
-from geswarm.sim.yaml_items import Item, ItemReader
+from geswarm.sim.scenario.yaml_items import Item, ItemReader
 
 _OUTLINES = ("rectangle", "circle", "regular", "polygon")
 ARENA_KEYS = (

@@ -11,11 +11,11 @@ from typing import Any
 
 from geswarm.rules.findings import Finding, Place, unknown_name
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import scenario_file, scenario_yaml
-from geswarm.sim.arena import Arena, normalised
-from geswarm.sim.arena_checks import Problem
-from geswarm.sim.objective import Objective
-from geswarm.sim.scenario_checks import (
+from geswarm.sim.arena.checks import Problem
+from geswarm.sim.arena.model import Arena, normalised
+from geswarm.sim.scenario import file as scenario_file
+from geswarm.sim.scenario import yaml_form as scenario_yaml
+from geswarm.sim.scenario.checks import (
     OF_THE_ARENA,
     PARAMETERS,
     ScenarioError,
@@ -23,6 +23,7 @@ from geswarm.sim.scenario_checks import (
     problems,
     written,
 )
+from geswarm.sim.scenario.objective import Objective
 
 __all__ = [
     "Scenario",
@@ -263,6 +264,6 @@ def parse_scenario(text: str, name: str = "scenario", folder: Path | None = None
 
 def _term_problems(fields: Mapping[str, Any]) -> Iterator[Problem]:
     """What the library of terms finds wrong with the fields of a scenario, right otherwise."""
-    from geswarm.sim.term_checks import term_problems  # the library is made of scenarios
+    from geswarm.sim.library.term_checks import term_problems  # the library is made of scenarios
 
     return term_problems(Scenario(name="scenario", **fields))

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim.arena import Box, Disc, HalfPlane, Plain, Polygon
+from geswarm.sim.arena.model import Box, Disc, HalfPlane, Plain, Polygon
 
 Points = npt.NDArray[np.float64]
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from geswarm.rules.model import clean_line
-from geswarm.sim import scenario_file
-from geswarm.sim.arena import Arena, Band, Box, Disc, HalfPlane, Light, Patch, Polygon, Shape
-from geswarm.sim.objective import Objective
-from geswarm.sim.scenario_checks import OF_THE_ARENA, PARAMETERS
+from geswarm.sim.arena.model import Arena, Band, Box, Disc, HalfPlane, Light, Patch, Polygon, Shape
+from geswarm.sim.scenario import file as scenario_file
+from geswarm.sim.scenario.checks import OF_THE_ARENA, PARAMETERS
+from geswarm.sim.scenario.objective import Objective
 
 if TYPE_CHECKING:
-    from geswarm.sim.scenario import Scenario
+    from geswarm.sim.scenario.model import Scenario
 
 
 def format_scenario(scenario: Scenario, short: bool) -> str:

@@ -8,13 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.sim import footbot
-from geswarm.sim.arena import Arena, Box, Disc, Point
-from geswarm.sim.arena_geometry import distances
-from geswarm.sim.scenario import Scenario
-from geswarm.sim.scenario_checks import objects_from_walls
-from geswarm.sim.shapes import Extent, turn_of
-from geswarm.sim.source_place import where_objects_lie
-from geswarm.sim.start_places import places_of, seen_around
+from geswarm.sim.arena.geometry import distances
+from geswarm.sim.arena.model import Arena, Box, Disc, Point
+from geswarm.sim.arena.shapes import Extent, turn_of
+from geswarm.sim.arena.source_place import where_objects_lie
+from geswarm.sim.arena.start_places import places_of, seen_around
+from geswarm.sim.scenario.checks import objects_from_walls
+from geswarm.sim.scenario.model import Scenario
 
 _STOPS = 512
 """Places between the one asked for and that where the robot is, the last of which is free."""

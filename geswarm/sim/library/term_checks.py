@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from geswarm.sim import library
-from geswarm.sim.arena_checks import Problem
-from geswarm.sim.library import Design
-from geswarm.sim.own_terms import OwnTerms, OwnTermsError, load_own_terms
-from geswarm.sim.scenario import Scenario
+from geswarm.sim.arena.checks import Problem
+from geswarm.sim.library import vocabulary as library
+from geswarm.sim.library.own_terms import OwnTerms, OwnTermsError, load_own_terms
+from geswarm.sim.library.vocabulary import Design
+from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import Behaviour, Component, Percept, Register
 from geswarm.sim.terms.ground import GroundError
 from geswarm.sim.terms.parts import PartsError

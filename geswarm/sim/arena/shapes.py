@@ -6,7 +6,7 @@ import math
 from itertools import product
 from typing import NamedTuple
 
-from geswarm.sim.arena import Box, Disc, HalfPlane, Point, Polygon
+from geswarm.sim.arena.model import Box, Disc, HalfPlane, Point, Polygon
 
 
 class Extent(NamedTuple):

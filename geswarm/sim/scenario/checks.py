@@ -8,12 +8,13 @@ from typing import Any
 
 from geswarm.rules.findings import Finding
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import arena_checks, footbot
-from geswarm.sim.arena import Arena, Band, Box
-from geswarm.sim.arena_checks import Problem
-from geswarm.sim.objective import OF_THE_RUN
+from geswarm.sim import footbot
+from geswarm.sim.arena import checks as arena_checks
+from geswarm.sim.arena.checks import Problem
+from geswarm.sim.arena.model import Arena, Band, Box
 from geswarm.sim.parameter import Parameter, listed, shown
-from geswarm.sim.scenario_words import word_problems
+from geswarm.sim.scenario.objective import OF_THE_RUN
+from geswarm.sim.scenario.words import word_problems
 
 
 class ScenarioError(ValueError):

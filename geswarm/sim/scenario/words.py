@@ -11,9 +11,9 @@ from typing import Any
 
 from geswarm.rules.findings import Place
 from geswarm.rules.findings import shown as quoted
-from geswarm.sim.objective import OF_THE_RUN, Objective, ObjectiveError
 from geswarm.sim.parameter import Parameter, shown
-from geswarm.sim.yaml_items import Item, ItemReader
+from geswarm.sim.scenario.objective import OF_THE_RUN, Objective, ObjectiveError
+from geswarm.sim.scenario.yaml_items import Item, ItemReader
 
 _DISTANCE = Parameter(float, 1e-6, 1e4, " m")
 _PROBABILITY = Parameter(float, 0, 1, above=True)

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from geswarm.sim.arena import Arena, Box, Disc, HalfPlane, Point, Polygon
-from geswarm.sim.shapes import (
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Point, Polygon
+from geswarm.sim.arena.shapes import (
     Extent,
     around_origin,
     between_edges,

@@ -9,7 +9,16 @@ from typing import Any
 import numpy as np
 
 from geswarm.sim import footbot
-from geswarm.sim.arena import (
+from geswarm.sim.arena.geometry import (
+    corners,
+    crosses_itself,
+    distances,
+    from_border,
+    grid,
+    overlap,
+    signed_area,
+)
+from geswarm.sim.arena.model import (
     COLOURS,
     SIDES,
     ZONES,
@@ -21,15 +30,6 @@ from geswarm.sim.arena import (
     Light,
     Polygon,
     normalised,
-)
-from geswarm.sim.arena_geometry import (
-    corners,
-    crosses_itself,
-    distances,
-    from_border,
-    grid,
-    overlap,
-    signed_area,
 )
 from geswarm.sim.parameter import Parameter, shown
 

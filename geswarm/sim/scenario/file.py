@@ -15,19 +15,19 @@ from geswarm.plain_text import NotTextError, read_file
 from geswarm.rules.findings import Finding, Place, shown
 from geswarm.rules.limits import MAX_CHARACTERS
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
-from geswarm.sim.arena_checks import Problem
-from geswarm.sim.arena_file import ARENA_KEYS, ArenaFileError, ArenaReader, Given, build, inherited
-from geswarm.sim.scenario_checks import (
+from geswarm.sim.arena.checks import Problem
+from geswarm.sim.arena.file import ARENA_KEYS, ArenaFileError, ArenaReader, Given, build, inherited
+from geswarm.sim.scenario.checks import (
     OF_THE_ARENA,
     PARAMETERS,
     ScenarioError,
     number_problems,
     problems,
 )
-from geswarm.sim.scenario_words import WORDS, WordReader, word_problems
-from geswarm.sim.yaml_items import item_of, unknown_key
+from geswarm.sim.scenario.words import WORDS, WordReader, word_problems
+from geswarm.sim.scenario.yaml_items import item_of, unknown_key
 
-_FOLDER = Path(__file__).parent / "scenarios"
+_FOLDER = Path(__file__).parents[1] / "scenarios"
 _ROOT = "paper"
 NOTHING = "nothing"
 """What a scenario extends that inherits nothing."""

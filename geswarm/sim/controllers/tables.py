@@ -14,6 +14,8 @@ from geswarm.rules.names import require_known_names
 from geswarm.rules.space import Space
 from geswarm.sim.assembly.records import GROUP
 from geswarm.sim.compiled import compile_tables
+from geswarm.sim.controllers.program import Instances, encode, encoded
+from geswarm.sim.controllers.spaces import percepts_of_codes
 from geswarm.sim.kernels.table import (
     MOST_OUTCOMES,
     MOST_RULES,
@@ -22,8 +24,6 @@ from geswarm.sim.kernels.table import (
     Room,
     Tables,
 )
-from geswarm.sim.program import Instances, encode, encoded
-from geswarm.sim.spaces import percepts_of_codes
 from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
 
 Controller: TypeAlias = RuleSet | ControlTable

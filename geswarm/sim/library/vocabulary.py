@@ -14,13 +14,14 @@ from typing import TypeVar
 from geswarm.rules.declarations import PreconditionName, Reading
 from geswarm.rules.model import Value
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
-from geswarm.sim.arena import Arena, HalfPlane, Plain
-from geswarm.sim.arena_geometry import overlap
+from geswarm.sim.arena.geometry import overlap
+from geswarm.sim.arena.model import Arena, HalfPlane, Plain
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.encoding import numbers_by_name
-from geswarm.sim.own_terms import OwnTerms, load_own_terms
-from geswarm.sim.scenario import Scenario
+from geswarm.sim.controllers.encoding import numbers_by_name
+from geswarm.sim.library.own_terms import OwnTerms, load_own_terms
+from geswarm.sim.library.vetting import own_components, require_sound
+from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms import avoidance, light, objects, robots, walk
 from geswarm.sim.terms.component import (
     Behaviour,
@@ -36,7 +37,6 @@ from geswarm.sim.terms.component import (
 from geswarm.sim.terms.declare import register
 from geswarm.sim.terms.ground import Ground
 from geswarm.sim.terms.parts import Parts, PartsError
-from geswarm.sim.vetting import own_components, require_sound
 
 _Term = TypeVar("_Term")
 

@@ -11,14 +11,14 @@ import numpy.typing as npt
 
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
-from geswarm.sim.arena_numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.start_places import places_of, require_room
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.compiled import start_all
 from geswarm.sim.kernels.pairs import Grid
 from geswarm.sim.kernels.state import ROBOT, SLOT, Beginning
-from geswarm.sim.scenario import Scenario
-from geswarm.sim.scenario_checks import objects_from_walls
-from geswarm.sim.start_places import places_of, require_room
+from geswarm.sim.scenario.checks import objects_from_walls
+from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import Component
 from geswarm.sim.terms.parts import Parts, PartsError
 

@@ -11,8 +11,8 @@ from geswarm.rules.arguments import Argument, Choice, Number, Whole
 from geswarm.rules.declarations import InternalStateName
 from geswarm.rules.model import COMPARISONS, OPERATIONS, Value, format_value
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
-from geswarm.sim.library import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS, parts_of
-from geswarm.sim.scenario import Scenario
+from geswarm.sim.library.vocabulary import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS, parts_of
+from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
@@ -22,7 +22,7 @@ from geswarm.sim.terms.component import (
     SwarmMeasure,
 )
 
-_PACKAGE = Path(__file__).parents[2]
+_PACKAGE = Path(__file__).parents[3]
 _OF_THE_PAPER = {
     **dict.fromkeys(FORAGING.percepts, "paper, section 3.1.1"),
     **dict.fromkeys(FORAGING.behaviour_names, "paper, section 3.1.1"),

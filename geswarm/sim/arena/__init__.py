@@ -1,0 +1,1 @@
+"""Arenas: what they are, how files say it, and where things lie in them."""
