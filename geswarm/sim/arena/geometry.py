@@ -1,4 +1,4 @@
-"""Shapes of an arena as numbers: corners, what they have in common, how far points are from them.
+"""Plane geometry of an arena's shapes: extents, corners, what they have in common, distances.
 
 Points are float64 of shape (n, 2), in metres. For checks, not for the kernels: discs are polygons
 of many corners where they are compared with others.
@@ -7,6 +7,7 @@ of many corners where they are compared with others.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,61 @@ _GRID = 32
 """Points along each side of a grid."""
 
 
+class Extent(NamedTuple):
+    """A box along the axes."""
+
+    west: float
+    south: float
+    east: float
+    north: float
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is in it; a line or a point is not empty."""
+        return self.east < self.west or self.north < self.south
+
+    def intersection(self, other: Extent) -> Extent:
+        """What is in both."""
+        return Extent(
+            max(self.west, other.west),
+            max(self.south, other.south),
+            min(self.east, other.east),
+            min(self.north, other.north),
+        )
+
+
+def around_origin(half_width: float, half_length: float) -> Extent:
+    """The box of these half sides around the origin."""
+    return Extent(-half_width, -half_length, half_width, half_length)
+
+
+def turn_of(box: Box) -> tuple[float, float]:
+    """Cosine and sine of a box's angle."""
+    angle = math.radians(box.angle)
+    return math.cos(angle), math.sin(angle)
+
+
+def extent_of(shape: Plain) -> Extent:
+    """The smallest box along the axes around a shape."""
+    if isinstance(shape, HalfPlane):
+        far = math.inf
+        return Extent(
+            shape.at if shape.side == "east" else -far,
+            shape.at if shape.side == "north" else -far,
+            shape.at if shape.side == "west" else far,
+            shape.at if shape.side == "south" else far,
+        )
+    if isinstance(shape, Disc):
+        r = shape.radius
+        return Extent(shape.x - r, shape.y - r, shape.x + r, shape.y + r)
+    if isinstance(shape, Box) and not shape.angle % 180.0:
+        half_width, half_length = shape.width / 2.0, shape.length / 2.0
+        x, y = shape.x, shape.y
+        return Extent(x - half_width, y - half_length, x + half_width, y + half_length)
+    points = corners(shape)
+    return Extent(*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+
+
 def corners(shape: Plain) -> Points:
     """The corners of a shape, counter-clockwise unless it is a polygon that is not."""
     if isinstance(shape, Polygon):
@@ -32,10 +88,8 @@ def corners(shape: Plain) -> Points:
         return circle * shape.radius + (shape.x, shape.y)
     unit = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     if isinstance(shape, Box):
-        turn = math.radians(shape.angle)
-        rotation = np.array(
-            [(math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))], dtype=np.float64
-        )
+        cos, sin = turn_of(shape)
+        rotation: Points = np.array([(cos, sin), (-sin, cos)])
         return unit * (shape.width / 2.0, shape.length / 2.0) @ rotation + (shape.x, shape.y)
     along = 1 if shape.side in ("south", "north") else 0
     found = unit * _FAR
@@ -85,7 +139,7 @@ def distances(shape: Plain, points: Points) -> npt.NDArray[np.float64]:
         sign = 1.0 if shape.side in ("north", "east") else -1.0
         return np.maximum(sign * (shape.at - along), 0.0)
     border = corners(shape)
-    return np.where(_within(border, points), 0.0, from_border(border, points))
+    return np.where(is_within(border, points), 0.0, from_border(border, points))
 
 
 def from_border(border: Points, points: Points) -> npt.NDArray[np.float64]:
@@ -97,6 +151,13 @@ def from_border(border: Points, points: Points) -> npt.NDArray[np.float64]:
         part = np.clip(offsets @ side / length, 0.0, 1.0)
         least = np.minimum(least, np.hypot(*(offsets - part[:, np.newaxis] * side).T))
     return least
+
+
+def between(one: Points, other: Points) -> float:
+    """Least distance between two closed lines, or points (m); 0 if they cross."""
+    if _meeting(one, other).any():
+        return 0.0
+    return float(min(from_border(one, other).min(), from_border(other, one).min()))
 
 
 def grid(shape: Plain, within: Plain, margin: float) -> tuple[Points, float]:
@@ -114,7 +175,7 @@ def grid(shape: Plain, within: Plain, margin: float) -> tuple[Points, float]:
     return np.stack([x.ravel(), y.ravel()], axis=1), float(size[0] * size[1]) / _GRID**2
 
 
-def _within(border: Points, points: Points) -> npt.NDArray[np.bool_]:
+def is_within(border: Points, points: Points) -> npt.NDArray[np.bool_]:
     """Whether points are within a closed line that does not cross itself."""
     inside = np.zeros(len(points), dtype=np.bool_)
     x, y = points[:, 0], points[:, 1]

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from geswarm.sim.arena.geometry import Extent, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Polygon
-from geswarm.sim.arena.shapes import Extent, turn_of
 from geswarm.sim.arena.source_place import box_numbers, in_single, where_objects_lie
 
 _SLACK = 1e-3

@@ -8,9 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.sim import footbot
-from geswarm.sim.arena.geometry import distances
+from geswarm.sim.arena.geometry import Extent, distances, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Point
-from geswarm.sim.arena.shapes import Extent, turn_of
 from geswarm.sim.arena.source_place import where_objects_lie
 from geswarm.sim.arena.start_places import places_of, seen_around
 from geswarm.sim.scenario.checks import objects_from_walls

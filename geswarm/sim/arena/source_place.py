@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Point, Polygon
-from geswarm.sim.arena.shapes import (
+from geswarm.sim.arena.geometry import (
     Extent,
+    Points,
     around_origin,
-    between_edges,
-    corners_of,
+    between,
+    corners,
     extent_of,
-    is_inside,
-    to_edge,
+    is_within,
 )
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Polygon
 from geswarm.sim.terms.ground import GroundError
 
 _TRIFLE = 1e-9
@@ -110,7 +110,7 @@ def _in_box(arena: Arena, shape: Any, margin: float, kind: type) -> Extent:
 
 def _far_from_outline(arena: Arena, shape: Disc | Box, margin: float) -> Extent | Disc | Box:
     """The shape, which must be far enough from the outline."""
-    outline, corners = arena.outline, corners_of(shape) if isinstance(shape, Box) else ()
+    outline = arena.outline
     if isinstance(outline, Disc) and isinstance(shape, Disc) and (shape.x, shape.y) == (0.0, 0.0):
         radius = min(shape.radius, outline.radius - margin)
         if radius <= 0.0:
@@ -118,15 +118,13 @@ def _far_from_outline(arena: Arena, shape: Disc | Box, margin: float) -> Extent 
                 f"source: a margin of {margin:g} m from the wall leaves no room for objects"
             )
         return Disc(0.0, 0.0, radius)
-    points = corners or ((shape.x, shape.y),)
-    own = shape.radius if isinstance(shape, Disc) else 0.0
+    points, own = _rounded(shape)
     if isinstance(outline, Disc):
-        gap = min(outline.radius - math.hypot(*point) for point in points) - own
+        gap = outline.radius - float(np.hypot(*points.T).max())
     else:
-        walls = outline.points if isinstance(outline, Polygon) else corners_of(outline)
-        gap = between_edges(corners, walls) if corners else to_edge(walls, *points[0]) - own
-        gap = gap if is_inside(walls, *points[0]) else -math.inf
-    if gap < margin - _TRIFLE:
+        walls = corners(outline)
+        gap = between(points, walls) if is_within(walls, points[:1])[0] else -math.inf
+    if gap - own < margin - _TRIFLE:
         raise GroundError(
             f"source: expected all of it at least {margin:g} m from the walls, where robots reach"
         )
@@ -145,28 +143,16 @@ def _require_far_from_obstacles(arena: Arena, place: SourcePlace, margin: float)
 
 def _gaps_to_obstacles(arena: Arena, place: SourcePlace) -> Iterator[float]:
     for obstacle in arena.obstacles:
-        one, other = _rounded(place.shape), _rounded(obstacle)
-        yield _gap(one[0], other[0]) - one[1] - other[1]
+        (own, around), (that, reach) = _rounded(place.shape), _rounded(obstacle)
+        apart = not is_within(own, that[:1])[0] and not is_within(that, own[:1])[0]
+        yield between(own, that) - around - reach if apart else -math.inf
 
 
-def _rounded(shape: Extent | Disc | Box) -> tuple[tuple[Point, ...], float]:
+def _rounded(shape: Extent | Disc | Box) -> tuple[Points, float]:
     """A shape as a point or polygon and how far it reaches around that."""
     if isinstance(shape, Disc):
-        return ((shape.x, shape.y),), shape.radius
+        return np.array([(shape.x, shape.y)]), shape.radius
     if isinstance(shape, Box):
-        return corners_of(shape), 0.0
+        return corners(shape), 0.0
     west, south, east, north = shape
-    return ((west, south), (east, south), (east, north), (west, north)), 0.0
-
-
-def _gap(one: tuple[Point, ...], other: tuple[Point, ...]) -> float:
-    """Distance between points or polygons; negative without a bound if one is in the other."""
-    if len(one) == 1 and len(other) == 1:
-        return math.dist(one[0], other[0])
-    for this, that in ((one, other), (other, one)):
-        if len(that) > 1 and is_inside(that, *this[0]):
-            return -math.inf
-    if len(one) == 1 or len(other) == 1:
-        point, polygon = (one[0], other) if len(one) == 1 else (other[0], one)
-        return to_edge(polygon, *point)
-    return between_edges(one, other)
+    return np.array([(west, south), (east, south), (east, north), (west, north)]), 0.0

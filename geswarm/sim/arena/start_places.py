@@ -8,9 +8,9 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.sim.arena.geometry import Extent, around_origin, corners, extent_of, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Polygon
 from geswarm.sim.arena.numbers import walls
-from geswarm.sim.arena.shapes import Extent, around_origin, corners_of, extent_of, turn_of
 from geswarm.sim.arena.source_place import box_numbers, where_objects_lie
 from geswarm.sim.compiled import look_around
 from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TURNED, NO_PLACE, Places
@@ -54,14 +54,13 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
     reach = around_origin(*_reach(arena, radius))
     extent = reach if region is None else extent_of(region).intersection(reach)
     box = box_numbers(extent)
-    corners: Array = np.zeros((0, 2))
-    if isinstance(region, Polygon):
-        corners = np.array(region.points)
-    elif isinstance(region, Box) and region.angle % 180.0:
-        corners = np.array(corners_of(region))
+    turned = isinstance(region, Box) and bool(region.angle % 180.0)
+    border: Array = np.zeros((0, 2))
+    if region is not None and (turned or isinstance(region, Polygon)):
+        border = corners(region)
     disc = (region.x, region.y, region.radius) if isinstance(region, Disc) else (0.0, 0.0, -1.0)
     is_bare = isinstance(arena.outline, Box) and not arena.obstacles
-    in_cells = is_bare and not isinstance(region, Disc) and not len(corners)
+    in_cells = is_bare and not isinstance(region, Disc) and not len(border)
     form, objects = _objects(arena, margin)
     return Places(
         half_width=arena.half_width,
@@ -72,7 +71,7 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
         start_south=box["south"],
         start_depth=box["depth"],
         start_disc=disc,
-        start_corners=corners,
+        start_corners=border,
         columns=_columns(arena, extent, radius) if in_cells else 0,
         round=arena.outline.radius if isinstance(arena.outline, Disc) else -1.0,
         walls=_walls(arena),
