@@ -98,7 +98,7 @@ def test_what_is_wrong_with_the_example_is_told_as_the_readme_says(example):
             "alone.py, line 6: is_beside names elbow_rom, which is",
         ),
         ("in_lit", "in_lid", "alone.py, line 26: alone names in_lid, which is"),
-        ("def alone", "def alon", "measures: unknown measure alone; did you mean alon?"),
+        ("def alone", "def alon", "measures 1: unknown measure alone; did you mean alon?"),
         (
             '"CROWDED"',
             '"CROWD"',

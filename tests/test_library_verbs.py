@@ -6,7 +6,7 @@ import pytest
 
 from geswarm.cli import main
 from geswarm.sim import load_scenario, scenario_names
-from geswarm.sim.library.vocabulary import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS
+from geswarm.sim.library.terms import BUILT_IN
 
 
 @pytest.fixture(autouse=True)
@@ -45,10 +45,10 @@ def test_tables_fit_a_terminal(verb, capsys):
 def test_the_library_lists_every_term(capsys):
     found = terms(capsys)
     for kind, known in (
-        ("precondition", PERCEPTS),
-        ("behaviour", BEHAVIOURS),
-        ("register", REGISTERS),
-        ("measure", MEASURES),
+        ("precondition", BUILT_IN.percepts),
+        ("behaviour", BUILT_IN.behaviours),
+        ("register", BUILT_IN.registers),
+        ("measure", BUILT_IN.measures),
     ):
         assert {name for of, name in found if of == kind} >= known.keys()
     assert ("precondition", "ON_<AREA>") in found

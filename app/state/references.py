@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 
 from geswarm.rules import RuleSet, RuleSetError, load_preset, load_rule_set, preset_names
 from geswarm.sim import Scenario, vocabulary_of
@@ -20,7 +21,8 @@ def references_of(scenario: Scenario) -> dict[str, RuleSet]:
     if not scenario.reference:
         return {}
     try:
-        return {scenario.reference: load_rule_set(scenario.reference, vocabulary)}
+        rules = load_rule_set(scenario.reference, vocabulary)
+        return {Path(scenario.reference).stem: rules}
     except RuleSetError:  # a file that has gone: there is nothing to compare with
         return {}
 

@@ -1,7 +1,11 @@
 """Scenarios whose terms are wrong are refused by name, with file and line."""
 
+from dataclasses import replace
+
 import pytest
 
+from geswarm.app.state.references import references_of
+from geswarm.rules import format_yaml, load_rule_set
 from geswarm.sim import ScenarioError, load_scenario, parse_scenario, scenario_names, vocabulary_of
 
 AAC = "extends: aac\n"
@@ -13,27 +17,27 @@ XOR = "extends: xor\n"
     [
         (
             AAC + "preconditions: [ON_BLCK]",
-            "x.yaml:2: preconditions: unknown precondition ON_BLCK; did you mean ON_BLACK?",
+            "x.yaml:2: preconditions 1: unknown precondition ON_BLCK; did you mean ON_BLACK?",
         ),
         (
             AAC + "preconditions: [SEES_OBJECT]",
-            "x.yaml:2: preconditions: SEES_OBJECT needs objects, but the scenario has none",
+            "x.yaml:2: preconditions 1: SEES_OBJECT needs objects, but the scenario has none",
         ),
         (
             AAC + "measures: [on_black, collected]",
-            "x.yaml:2: measures: collected counts objects, but the scenario has none",
+            "x.yaml:2: measures 2: collected counts objects, but the scenario has none",
         ),
         (
             XOR + "preconditions: [LIGHT]",
-            "x.yaml:2: preconditions: LIGHT needs a light, but the arena has none",
+            "x.yaml:2: preconditions 1: LIGHT needs a light, but the arena has none",
         ),
         (
             XOR + "behaviours: [PHOTOTAXIS, RANDOM_WALK]",
-            "x.yaml:2: behaviours: PHOTOTAXIS needs a light, but the arena has none",
+            "x.yaml:2: behaviours 1: PHOTOTAXIS needs a light, but the arena has none",
         ),
         (
             XOR + "behaviours: [RANDOM_WALK, STAND]",
-            "x.yaml:2: behaviours: unknown behaviour STAND; known are PHOTOTAXIS, ",
+            "x.yaml:2: behaviours 2: unknown behaviour STAND; known are PHOTOTAXIS, ",
         ),
         (
             AAC + "objective: {maximise: robots * 2}",
@@ -49,7 +53,7 @@ XOR = "extends: xor\n"
         ),
         (
             XOR + "registers: [HUNGER(1..5)]",
-            "x.yaml:2: registers: HUNGER(1..5): expected a counter such as HUNGER(0..7)",
+            "x.yaml:2: registers 1: HUNGER(1..5): expected a counter such as HUNGER(0..7)",
         ),
         (
             XOR + 'registers: ["A(0..5)", "B(0..3)"]',
@@ -57,7 +61,7 @@ XOR = "extends: xor\n"
         ),
         (
             XOR + 'behaviours: [RANDOM_WALK, "RANDOM_WALK(shortest, longest)"]',
-            "x.yaml:2: behaviours: RANDOM_WALK(shortest, longest): rules could not tell it from",
+            "x.yaml:2: behaviours 2: RANDOM_WALK(shortest, longest): rules could not tell it from",
         ),
         (
             XOR + 'behaviours: ["RANDOM_WALK(shortest, longest)"]',
@@ -69,6 +73,32 @@ def test_what_is_wrong_is_told_by_name_with_its_line(text, message):
     with pytest.raises(ScenarioError) as error:
         parse_scenario(text, "x.yaml")
     assert message in str(error.value)
+
+
+def test_a_name_in_a_list_is_told_with_its_own_line():
+    text = AAC + "preconditions:\n- FLOOR\n- FLUR\nbehaviours:\n- STOP\n- STOP\n"
+    with pytest.raises(ScenarioError) as error:
+        parse_scenario(text, "x.yaml")
+    assert [str(finding) for finding in error.value.findings] == [
+        "x.yaml:7: behaviours 2: STOP is given twice"
+    ]
+    with pytest.raises(ScenarioError) as error:
+        parse_scenario(text.replace("- STOP\n", "- RANDOM_WALK\n", 1), "x.yaml")
+    assert "x.yaml:4: preconditions 2: unknown precondition FLUR" in str(error.value)
+
+
+def test_the_reference_may_be_a_file_beside_the_scenario(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text(AAC + "reference: rules.yaml\n")
+    with pytest.raises(ScenarioError, match=r"2: reference: there is no file 'rules\.yaml'"):
+        load_scenario(path)
+    rules = load_rule_set("aac", vocabulary_of(load_scenario("aac")))
+    (tmp_path / "rules.yaml").write_text(format_yaml(replace(rules, name="Mine")))
+    scenario = load_scenario(path)
+    assert scenario.reference == str(tmp_path / "rules.yaml")
+    assert load_rule_set(scenario.reference, vocabulary_of(scenario)).name == "Mine"
+    assert list(references_of(scenario)) == ["rules"]
+    assert parse_scenario(scenario.to_yaml(), scenario.name) == scenario
 
 
 def test_everything_is_told_at_once():

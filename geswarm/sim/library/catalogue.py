@@ -11,7 +11,8 @@ from geswarm.rules.arguments import Argument, Choice, Number, Whole
 from geswarm.rules.declarations import InternalStateName
 from geswarm.rules.model import COMPARISONS, OPERATIONS, Value, format_value
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
-from geswarm.sim.library.vocabulary import BEHAVIOURS, MEASURES, PERCEPTS, REGISTERS, parts_of
+from geswarm.sim.library.terms import BUILT_IN
+from geswarm.sim.library.vocabulary import parts_of
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import (
     Behaviour,
@@ -119,11 +120,11 @@ def _library() -> Iterator[Entry]:
     ):
         equal = ("==", "!=")
         yield Entry(name, "precondition", (), words, values, equal, "", *_MADE[made])
-    yield from (_percept(each, None) for each in PERCEPTS.values())
-    yield from (_behaviour(name, each) for name, each in BEHAVIOURS.items())
-    yield from (_register(each) for each in REGISTERS.values())
+    yield from (_percept(each, None) for each in BUILT_IN.percepts.values())
+    yield from (_behaviour(name, each) for name, each in BUILT_IN.behaviours.items())
+    yield from (_register(each) for each in BUILT_IN.registers.values())
     yield from _registers_to_declare()
-    yield from (_measure(each) for each in MEASURES.values())
+    yield from (_measure(each) for each in BUILT_IN.measures.values())
     for name, unit, made in (
         ("on_<area>", "robot-steps", "on"),
         ("larger_group", "robot-steps", "larger_group"),

@@ -11,14 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 
-from geswarm.sim.terms.component import (
-    Behaviour,
-    Measure,
-    Percept,
-    Register,
-    Sum,
-    SwarmMeasure,
-)
+from geswarm.sim.library.terms import Terms
 
 
 class OwnTermsError(ValueError):
@@ -30,20 +23,12 @@ class OwnTerms:
     """The terms of one file.
 
     Attributes:
-        percepts: By the word that rules write.
-        behaviours: Likewise.
-        registers: Likewise.
-        measures: By the function's name.
-        sums: Sums over the other robots.
+        terms: What it declares.
         version: Checksum of the file.
         module: Name under which it is imported.
     """
 
-    percepts: dict[str, Percept] = field(default_factory=dict)
-    behaviours: dict[str, Behaviour] = field(default_factory=dict)
-    registers: dict[str, Register] = field(default_factory=dict)
-    measures: dict[str, Measure | SwarmMeasure] = field(default_factory=dict)
-    sums: tuple[Sum, ...] = ()
+    terms: Terms = field(default_factory=Terms)
     version: str = ""
     module: str = ""
 
@@ -66,17 +51,7 @@ def load_own_terms(path: Path | None) -> OwnTerms:
 @lru_cache(maxsize=64)
 def _load(path: Path, version: str) -> OwnTerms:
     module = _module(path, version)
-    found = vars(module).values()
-    measures = [each for each in found if isinstance(each, Measure | SwarmMeasure)]
-    return OwnTerms(
-        percepts={each.word.name: each for each in found if isinstance(each, Percept)},
-        behaviours={each.word.name: each for each in found if isinstance(each, Behaviour)},
-        registers={each.word.name: each for each in found if isinstance(each, Register)},
-        measures={each.name: each for each in measures},
-        sums=tuple(each for each in found if isinstance(each, Sum)),
-        version=version,
-        module=module.__name__,
-    )
+    return OwnTerms(Terms.of([module]), version, module.__name__)
 
 
 def _module(path: Path, version: str) -> ModuleType:

@@ -8,14 +8,15 @@ from typing import Any
 
 from geswarm.sim.arena.checks import Problem
 from geswarm.sim.library import vocabulary as library
-from geswarm.sim.library.own_terms import OwnTerms, OwnTermsError, load_own_terms
+from geswarm.sim.library.own_terms import OwnTermsError, load_own_terms
+from geswarm.sim.library.terms import Terms
 from geswarm.sim.library.vocabulary import Design
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import Behaviour, Component, Percept, Register
 from geswarm.sim.terms.ground import GroundError
 from geswarm.sim.terms.parts import PartsError
 
-_OFFERED: Mapping[str, Callable[[Design, OwnTerms], Iterator[Any]]] = {
+_OFFERED: Mapping[str, Callable[[Design, Terms], Iterator[Any]]] = {
     "preconditions": library.percepts_of,
     "behaviours": library.behaviours_of,
     "registers": library.registers_of,
@@ -42,34 +43,36 @@ def term_problems(scenario: Scenario) -> Iterator[Problem]:
     except GroundError as error:
         yield ("outline", "patches", "obstacles"), str(error)
         return
-    found = list(_one_by_one(design, own)) or list(_offered_twice(design))
+    found = list(_one_by_one(design, own.terms)) or list(_offered_twice(design))
     yield from found or _together(scenario)
 
 
-def _one_by_one(design: Design, own: OwnTerms) -> Iterator[Problem]:
+def _one_by_one(design: Design, own: Terms) -> Iterator[Problem]:
     for key, read in _OFFERED.items():
-        for name in getattr(design, key):
+        for number, name in enumerate(getattr(design, key), start=1):
+            item = f"{key} {number}"
             alone: dict[str, Any] = {key: (name,)}
             try:
                 terms = list(read(replace(design, **alone), own))
             except PartsError as error:
-                yield (key,), str(error)
+                yield (item, key), str(error)
                 continue
             needed = {need for term in terms for part in _parts(term) for need in part.needs}
             if needed & _OF_LIGHTS and not design.ground.lights:
-                yield (key, "lights"), f"{name} needs a light, but the arena has none"
+                yield (item, key, "lights"), f"{name} needs a light, but the arena has none"
             if needed & _OF_OBJECTS and not design.objects:
-                yield (key, "objects"), f"{name} needs objects, but the scenario has none"
+                yield (item, key, "objects"), f"{name} needs objects, but the scenario has none"
 
 
 def _offered_twice(design: Design) -> Iterator[Problem]:
     """Words that mean two things, such as a behaviour with arguments and without."""
     taken: dict[str, str] = {}
     for key in ("preconditions", "behaviours", "registers"):
-        for name in getattr(design, key):
+        for at, name in enumerate(getattr(design, key), start=1):
             word = name.partition("(")[0]
             if word in taken:
-                yield (key,), f"{name}: rules could not tell it from {taken[word]}"
+                message = f"{name}: rules could not tell it from {taken[word]}"
+                yield (f"{key} {at}", key), message
             taken.setdefault(word, name)
 
 
@@ -93,7 +96,6 @@ def _together(scenario: Scenario) -> Iterator[Problem]:
         keys = ("initial_behaviour", "behaviours") if first else ("registers",)
         yield keys, str(error).removeprefix(f"{keys[0]}: ")
     except PartsError as error:
-        yield (
-            ("preconditions", "behaviours", "registers", "measures", "terms"),
-            str(error).removeprefix("scenario: "),
-        )
+        own = scenario.terms is not None and str(scenario.terms) in str(error)
+        where = ("terms",) if own else (*_OFFERED, "terms")
+        yield where, str(error).removeprefix("scenario: ")

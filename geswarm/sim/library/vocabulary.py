@@ -19,10 +19,11 @@ from geswarm.sim.arena.model import Arena, HalfPlane, Plain
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.controllers.encoding import numbers_by_name
-from geswarm.sim.library.own_terms import OwnTerms, load_own_terms
+from geswarm.sim.library.own_terms import load_own_terms
+from geswarm.sim.library.terms import BUILT_IN, Terms
 from geswarm.sim.library.vetting import own_components, require_sound
 from geswarm.sim.scenario.model import Scenario
-from geswarm.sim.terms import avoidance, light, objects, robots, walk
+from geswarm.sim.terms import avoidance, objects
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
@@ -31,7 +32,6 @@ from geswarm.sim.terms.component import (
     Percept,
     Register,
     Sensor,
-    Sum,
     SwarmMeasure,
 )
 from geswarm.sim.terms.declare import register
@@ -39,41 +39,6 @@ from geswarm.sim.terms.ground import Ground
 from geswarm.sim.terms.parts import Parts, PartsError
 
 _Term = TypeVar("_Term")
-
-SUMS: tuple[Sum, ...] = (
-    avoidance.away_from_robot,
-    robots.is_neighbour,
-    robots.is_in_the_way,
-    robots.pull,
-)
-PERCEPTS: Mapping[str, Percept] = {
-    each.word.name: each
-    for each in (
-        objects.HAS_OBJECT,
-        objects.SEES_OBJECT,
-        robots.SEES_OBSTACLE,
-        robots.IS_CLOSE_TO,
-        robots.NEIGHBOURS,
-        light.LIGHT,
-    )
-}
-"""By name; `ON_<AREA>` and `FLOOR` are made for each arena."""
-BEHAVIOURS: Mapping[str, Behaviour] = {
-    "PHOTOTAXIS": light.phototaxis,
-    "ANTI-PHOTOTAXIS": light.anti_phototaxis,
-    "RANDOM_WALK": walk.random_walk,
-    "RANDOM_WALK(shortest, longest)": walk.random_walk_for,
-    "STOP": walk.stop,
-    "ATTRACTION": robots.attraction,
-    "REPULSION": robots.repulsion,
-}
-REGISTERS: Mapping[str, Register] = {
-    each.word.name: each for each in (objects.WANT_OBJECT, objects.DROP_OBJECT)
-}
-MEASURES: Mapping[str, Measure | SwarmMeasure] = {
-    each.name: each for each in (objects.picked, objects.collected, objects.lost)
-}
-"""By name; `on_<area>`, `larger_group` and `max_group` are made for each arena."""
 
 
 @dataclass(frozen=True)
@@ -192,7 +157,7 @@ def vocabulary_of(scenario: Scenario) -> Vocabulary:
 
 @lru_cache(maxsize=64)
 def _parts(design: Design) -> Parts:
-    own = load_own_terms(design.terms)
+    own = load_own_terms(design.terms).terms
     registers = tuple(registers_of(design, own))
     percepts = tuple(percepts_of(design, own))
     behaviours = tuple(behaviours_of(design, own))
@@ -222,7 +187,7 @@ def _parts(design: Design) -> Parts:
         first=first,
         ground=design.ground,
         registers=registers,
-        sums=(*SUMS, *own.sums),
+        sums=(*BUILT_IN.sums, *own.sums),
         steering=(avoidance.avoid,),
         effects=effects,
         measures=tuple(measures_of(design, own)),
@@ -259,16 +224,18 @@ def _pick(
     return found
 
 
-def behaviours_of(design: Design, own: OwnTerms) -> Iterator[Behaviour]:
+def behaviours_of(design: Design, own: Terms) -> Iterator[Behaviour]:
     """The behaviours on offer; raises TermError at one that is not known."""
-    return (_pick("behaviour", name, BEHAVIOURS, own.behaviours) for name in design.behaviours)
+    return (
+        _pick("behaviour", name, BUILT_IN.behaviours, own.behaviours) for name in design.behaviours
+    )
 
 
-def percepts_of(design: Design, own: OwnTerms) -> Iterator[Percept]:
+def percepts_of(design: Design, own: Terms) -> Iterator[Percept]:
     """The percepts on offer; raises TermError at one that is not known."""
     made = dict(_made_percepts(design))
     for name in design.preconditions:
-        yield made.get(name) or _pick("precondition", name, PERCEPTS, own.percepts, made)
+        yield made.get(name) or _pick("precondition", name, BUILT_IN.percepts, own.percepts, made)
 
 
 def _made_percepts(design: Design) -> Iterator[tuple[str, Percept]]:
@@ -292,14 +259,14 @@ def _bit(at: int) -> Callable[[int], Value]:
     return lambda reading: bool(reading >> at & 1)
 
 
-def registers_of(design: Design, own: OwnTerms) -> Iterator[Register]:
+def registers_of(design: Design, own: Terms) -> Iterator[Register]:
     """The internal states on offer; raises TermError at one that is not known."""
     for declared in design.registers:
         name, _, values = declared.partition("(")
-        if values or (name not in REGISTERS and name not in own.registers):
+        if values or (name not in BUILT_IN.registers and name not in own.registers):
             yield _declared(name.strip(), values.rstrip(") "), declared)
         else:
-            yield _pick("register", name, REGISTERS, own.registers)
+            yield _pick("register", name, BUILT_IN.registers, own.registers)
 
 
 def _declared(name: str, values: str, declared: str) -> Register:
@@ -321,7 +288,7 @@ def _declared(name: str, values: str, declared: str) -> Register:
     return register(name, kinds)
 
 
-def measures_of(design: Design, own: OwnTerms) -> Iterator[Measure | SwarmMeasure]:
+def measures_of(design: Design, own: Terms) -> Iterator[Measure | SwarmMeasure]:
     """What is counted; raises TermError at one that is not known, or counts what there is not."""
     made: dict[str, Measure | SwarmMeasure] = {
         f"on_{area}": Measure(None, called=f"on_{area}", given=(f"in_{area}",), unit="robot-steps")
@@ -336,7 +303,7 @@ def measures_of(design: Design, own: OwnTerms) -> Iterator[Measure | SwarmMeasur
             None, called="max_group", given=sums, at="end", unit="robots"
         )
     for name in design.measures:
-        found = made.get(name) or _pick("measure", name, MEASURES, own.measures, made)
+        found = made.get(name) or _pick("measure", name, BUILT_IN.measures, own.measures, made)
         if isinstance(found, Measure) and isinstance(found.at, Effect) and not design.objects:
             raise TermError(f"{name} counts objects, but the scenario has none", name)
         yield found
@@ -373,9 +340,10 @@ def _vocabulary(
         readings=tuple(readings.values()),
         name="foraging",
     )
-    if design.objects and len([r for r in registers if r.word.name in REGISTERS]) < len(REGISTERS):
+    needed = [each.word.name for each in (objects.WANT_OBJECT, objects.DROP_OBJECT)]
+    if design.objects and not set(needed) <= {each.word.name for each in registers}:
         raise TermError(
-            f"registers: objects need {' and '.join(REGISTERS)}, got "
+            f"registers: objects need {' and '.join(needed)}, got "
             f"{', '.join(design.registers) or 'none'}"
         )
     same = all(getattr(found, f.name) == getattr(FORAGING, f.name) for f in fields(Vocabulary))

@@ -25,7 +25,7 @@ from geswarm.sim.scenario.checks import (
     problems,
 )
 from geswarm.sim.scenario.words import WORDS, WordReader, word_problems
-from geswarm.sim.scenario.yaml_items import item_of, unknown_key
+from geswarm.sim.scenario.yaml_items import Item, item_of, unknown_key
 
 _FOLDER = Path(__file__).parents[1] / "scenarios"
 _ROOT = "paper"
@@ -107,6 +107,7 @@ class _Reader:
         self._misfits = misfits
         self._with_code = with_code
         self._root = Place()
+        self._parts: dict[str, Place] = {}
 
     def wrong(self, place: Place, message: str) -> None:
         self.findings.append(Finding(place, message))
@@ -125,7 +126,7 @@ class _Reader:
         except ArenaFileError as error:
             self.wrong(error.place or self._root, str(error))
         self._require(not self.findings)
-        places |= {key: each.place for key, each in given.items()}
+        places |= self._parts | {key: each.place for key, each in given.items()}
         own = {key: value for key, value in values.items() if key not in OF_THE_ARENA}
         fields = {**self._defaults, **own}
         for find in (problems, self._misfits):
@@ -212,12 +213,19 @@ class _Reader:
             if key == "arena":
                 arena = self._arena(part, given.place)
             elif key in WORDS:
-                value = words.read(key, item_of(part, given.place))
+                item = item_of(part, given.place)
+                value = words.read(key, item)
                 if value is not None:
                     own[key] = Given(value, given.place)
+                    self._note_parts(key, item)
             else:
                 own[key] = given
         return {**own, **arena}
+
+    def _note_parts(self, key: str, item: Item) -> None:
+        """Remember where the parts of a list are; those of the first file count, read first."""
+        for number, part in enumerate(item.value if isinstance(item.value, list) else [], start=1):
+            self._parts.setdefault(f"{key} {number}", part.place)
 
     def _arena(self, node: yaml.Node, place: Place) -> dict[str, Given]:
         """What `arena` gives."""

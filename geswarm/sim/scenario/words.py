@@ -24,6 +24,7 @@ _TERM = re.compile(r"[A-Z_](?:[A-Z0-9_-]*[A-Z0-9_])?")
 _DECLARED = re.compile(rf"{_TERM.pattern}(?:\([\w., -]+\))?")
 _LOWER = re.compile(r"[a-z][a-z0-9_]*")
 _REFERENCE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
+_RULE_FILES = (".yaml", ".yml", ".json", ".txt")
 
 
 def word_problems(values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -90,10 +91,13 @@ def probabilities_problem(values: object) -> str | None:
 
 
 def reference_problem(name: object) -> str | None:
-    """Why something cannot be the name of a reference rule set, or None."""
+    """Why something cannot be the name of a reference rule set, or the file of one, or None."""
     if name == "" or (isinstance(name, str) and len(name) <= 60 and _REFERENCE.fullmatch(name)):
         return None
-    return f"expected the name of a rule set, got {shown(name)}"
+    if isinstance(name, str) and Path(name).is_absolute() and name.endswith(_RULE_FILES):
+        return None
+    files = ", ".join(_RULE_FILES)
+    return f"expected the name of a rule set, or a file ({files}), got {shown(name)}"
 
 
 def own_numbers_problem(pairs: object) -> str | None:
@@ -182,8 +186,13 @@ class WordReader(ItemReader):
 
     def _names(self, item: Item, problem: Callable[[object], str | None]) -> Any:
         parts = item.value if isinstance(item.value, list) else []
-        found = [self.right(part, problem(part.value)) for part in parts[: _MOST_NAMES + 1]]
-        return item.plain if all(found) else None
+        found, taken = True, set()
+        for part in parts[: _MOST_NAMES + 1]:
+            name = part.value
+            message = problem(name) or (f"{name} is given twice" if name in taken else None)
+            found &= self.right(part, message)
+            taken |= set() if message else {name}
+        return item.plain if found else None
 
     def _preconditions(self, item: Item) -> Any:
         return self._names(item, term_problem)
@@ -216,6 +225,19 @@ class WordReader(ItemReader):
         except ObjectiveError as error:
             self.wrong(expression.place, str(error))
             return None
+
+    def _reference(self, item: Item) -> str | None:
+        name = item.value
+        if self._folder is not None and isinstance(name, str) and name.endswith(_RULE_FILES):
+            name = str((self._folder / name).absolute())
+            try:
+                found = Path(name).is_file()
+            except (OSError, ValueError):  # too long, or a NUL
+                found = False
+            if not found:
+                self.wrong(item.place, f"there is no file {quoted(item.value)}")
+                return None
+        return name if self.right(item, reference_problem(name)) else None
 
     def _terms(self, item: Item) -> Path | None:
         if not isinstance(item.value, str):
