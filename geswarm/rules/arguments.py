@@ -10,6 +10,9 @@ from geswarm.rules.findings import shown
 from geswarm.rules.limits import is_finite
 from geswarm.rules.model import Value, format_value
 
+MOST_OFFERED = 1000
+"""Most values of an argument that grammar and editor offer."""
+
 
 class Argument(ABC):
     """An argument of a term; grammar, editor and checks read what it may be."""
@@ -54,6 +57,7 @@ class Whole(Argument):
 
     def __post_init__(self) -> None:
         _require_range(self.name, self.low, self.high)
+        _require_few(self.name, self.high - self.low + 1)
 
     @property
     def offered(self) -> tuple[Value, ...]:
@@ -95,15 +99,22 @@ class Number(Argument):
         _require_range(self.name, self.low, self.high)
         if self.step <= (1.0 if self.logarithmic else 0.0) or (self.logarithmic and self.low <= 0):
             raise ValueError(f"{self.name}: expected steps upwards, got {self.step}")
+        _require_few(self.name, self._steps)
+
+    @property
+    def _steps(self) -> int:
+        """How many go from `low` to `high`."""
+        if self.logarithmic:
+            return math.floor(math.log(self.high / self.low) / math.log(self.step) + 1e-9)
+        return math.floor((self.high - self.low) / self.step + 1e-9)
 
     @property
     def offered(self) -> tuple[Value, ...]:
         """From `low` on, as many as fit; to twelve digits, so that they are short to write."""
+        steps = range(self._steps + 1)
         if self.logarithmic:
-            count = math.floor(math.log(self.high / self.low) / math.log(self.step) + 1e-9)
-            return tuple(_short(self.low * self.step**k) for k in range(count + 1))
-        count = math.floor((self.high - self.low) / self.step + 1e-9)
-        return tuple(_short(self.low + self.step * k) for k in range(count + 1))
+            return tuple(_short(self.low * self.step**k) for k in steps)
+        return tuple(_short(self.low + self.step * k) for k in steps)
 
     @property
     def expected(self) -> str:
@@ -146,8 +157,16 @@ class Choice(Argument):
 
 def _require_range(name: str, low: float, high: float) -> None:
     """Raise ValueError unless there is something between two numbers."""
+    for each in (low, high):
+        if isinstance(each, bool) or not isinstance(each, int | float) or not is_finite(each):
+            raise ValueError(f"{name}: expected numbers, got {each!r}")
     if not low < high:
         raise ValueError(f"{name}: expected the least before the greatest, got {low} and {high}")
+
+
+def _require_few(name: str, count: float) -> None:
+    if count > MOST_OFFERED:
+        raise ValueError(f"{name}: expected at most {MOST_OFFERED} values on offer")
 
 
 def _short(number: float) -> float:

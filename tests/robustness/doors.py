@@ -6,9 +6,11 @@ besides, it asserts.
 
 import json
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,8 +36,9 @@ from geswarm.rules import (
     read_rule_set,
 )
 from geswarm.rules.as_json import rule_set_to_json
-from geswarm.sim import ScenarioError, load_scenario, parse_scenario
+from geswarm.sim import ScenarioError, load_scenario, parse_scenario, vocabulary_of
 from geswarm.sim.controllers.encoding import scenario_numbers
+from geswarm.sim.library.catalogue import catalogue
 from geswarm.sim.scenario.checks import PARAMETERS
 from geswarm.sim.scenario.words import WORDS
 from tests.robustness import mutations
@@ -122,6 +125,21 @@ def read_scenario(text):
     assert np.isfinite(list(scenario_numbers(scenario).values())).all()
 
 
+def read_own_terms(code):
+    """A Python file beside a scenario."""
+    Path("alone.py").write_text(code, "utf-8", "surrogateescape")
+    Path("alone.yaml").write_text(_EXAMPLE["alone.yaml"])
+    try:
+        scenario = load_scenario("alone.yaml")
+    except ScenarioError as error:
+        assert all("alone.py" in line or ".yaml:" in line for line in str(error).splitlines())
+        raise
+    words = vocabulary_of(scenario)
+    rule_set = read_rule_set(_EXAMPLE["alone.rules"], "alone.rules", words)
+    assert len(describe(rule_set, words)) == len(rule_set.rules)
+    assert [entry.about for entry in catalogue(scenario)]
+
+
 def read_config(text):
     config = RunConfig.from_yaml(text)
     assert RunConfig.from_yaml(config.to_yaml()) == config
@@ -152,6 +170,10 @@ def typed_numbers(rng):
     return rng.choice(VALUES), rng.choice((*numbers, *special))
 
 
+_README = Path(__file__).parents[2] / "README.md"
+_EXAMPLE = dict(
+    re.findall(r"```\w*\n# (alone\.\w+)\n(.*?)```", _README.read_text("utf-8"), re.DOTALL)
+)
 _YAML_VALUES = mutations.json_objects(("schema", "name", "comment", "origin", "rules"))
 _CONFIG = RunConfig(PAPER, Settings(population=4), 3, EVO8.rules[:1]).to_yaml()
 GRAMMAR = """# arithmetic
@@ -193,6 +215,10 @@ def doors():
              mutations.json_values.map(json.dumps)),
         Door("grammar", read_grammar, (GrammarError,), text_inputs(GRAMMAR), st.text(max_size=60)),
         Door("scenario", read_scenario, (ScenarioError,), text_inputs(*_SCENARIOS), scenario_trees),
+        Door("own terms", read_own_terms, (ScenarioError, RuleSetError),
+             lambda rng: mutations.mutated_text(
+                 rng, [_EXAMPLE["alone.py"]], mutations.PYTHON_WORDS),
+             st.sampled_from(mutations.PYTHON_WORDS), share=0.05),
         Door("config of a run", read_config, (RunConfigError,), text_inputs(_CONFIG),
              mutations.json_objects(yaml.safe_load(_CONFIG)).map(yaml.safe_dump)),
         Door("number in the scenario panel", change_scenario, (ScenarioError,),

@@ -20,6 +20,21 @@ NASTY_WORDS = (
     "<1st>", "<ü>", "<a b>", "'\\n'", "'\\d'", '"\\""', "# c\n", '"rules": 1,', "\r\n",
 )  # fmt: skip
 
+PYTHON_WORDS = (
+    "", " ", "\n", "    ", "\0", "(", ")", ":", ",", ".", "@", "...", "=", "*", "**", "-", "//",
+    "%", "<", "if d2:", "return", "raise SystemExit", "raise ValueError('x')", "1 / 0", "None",
+    "True", "nan", "float('nan')", "-1", "0", "1.5", "9" * 400, "10**400", "import os",
+    "import nowhere", "lambda: 0", "yield", "async ", "global d2", "def", "class A: pass",
+    "assert", "del d2", "print(d2)", "I(", "F(", "I", "F", "d2", "dx", "beside", "rab_range",
+    "nowhere", "k", "pace", "step", "elbow_room", "values=1", "values=0", "values=-1",
+    "values=10**9", "values='x'", "Whole('k', 5, 1)", "Whole('k', 1, 9**9)",
+    "Number('pace', 0, 0, 0)", "Number('pace', 1, 0, 0.1)", "Choice('c', ())", "sensor", "percept",
+    "behaviour", "measure", "count", "total", "vector_sum", "crowd", "approach", "alone",
+    '"CROWDED"', '"STOP"', '"crowded"', '""', '"\\ud800"', "unit=1", "at='never'", "kind=str",
+    "holds='{nowhere}'", "holds='{'", "truth=None", "truth=lambda *x: 1 / 0", "[]", "{}", '"' * 3,
+    "#", "\\", "\t", "é", "\ufeff",
+)  # fmt: skip
+
 NASTY_VALUES = (
     None, True, False, -1, 0, 1, 10**400, 2**31, 2**63, -(2**63), 0.5, -0.5, 1e308, 1e-320,
     math.nan, math.inf, -math.inf, "", "\ud800", "\0", "</script>", "x" * 20_000, "9" * 400, [],
@@ -41,16 +56,16 @@ def random_text(rng):
     return "".join(chr(rng.randint(0, top)) for _ in range(rng.choice((0, 1, 5, 50, 500))))
 
 
-def mutated_text(rng, examples):
+def mutated_text(rng, examples, nasty=NASTY_WORDS):
     """A valid example with a few words taken out, put in, moved or exchanged."""
     words = _WORDS.findall(rng.choice(examples))
     for _ in range(rng.choice((1, 1, 2, 3, 8))):
         at, to = (rng.randrange(len(words) + 1) for _ in range(2))
         change = rng.randrange(6)
         if change == 0:
-            words[at:at] = [rng.choice(NASTY_WORDS)]
+            words[at:at] = [rng.choice(nasty)]
         elif change == 1:
-            words[at : at + 1] = [rng.choice(NASTY_WORDS)]
+            words[at : at + 1] = [rng.choice(nasty)]
         elif change == 2:
             del words[min(at, to) : min(max(at, to), min(at, to) + 5)]
         elif change == 3:

@@ -63,7 +63,7 @@ def _module(path: Path, version: str) -> ModuleType:
     sys.modules[name] = module  # assembled kernels import it by this name
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         del sys.modules[name]
         lines = [
             at.lineno

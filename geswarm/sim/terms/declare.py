@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from string import Formatter
+from typing import Any
 
-from geswarm.rules.arguments import Argument
+from geswarm.rules.arguments import Argument, Choice, Number, Whole
 from geswarm.rules.declarations import BehaviourName, InternalStateName, PreconditionName
 from geswarm.rules.model import Value
 from geswarm.sim.terms.component import (
@@ -25,6 +27,8 @@ from geswarm.sim.terms.component import (
 
 def sensor(values: int = 2, fails: str | None = None) -> Callable[[Function], Sensor]:
     """The function returns a reading, see `Sensor`."""
+    if not isinstance(values, int):
+        raise ValueError(f"expected a whole number of values, got {values!r}")
     return lambda function: Sensor(function, values=values, fails=fails)
 
 
@@ -49,6 +53,7 @@ def percept(
         truth: Makes it true or false of a reading and the arguments; None compares the reading.
         names: What the readings are called, if they are no numbers.
     """
+    _require_words(name, arguments, (holds, fails))
     if of.values == 2 and truth is None and not names and not arguments:
         word = PreconditionName(name, holds or name, fails or f"not {name}")
         return Percept(word, of, bool)
@@ -57,6 +62,30 @@ def percept(
     )
     word = PreconditionName(name, holds, fails or f"not {holds}", of.name, arguments, truth)
     return Percept(word, of, names.__getitem__ if names else int)
+
+
+def _require_words(name: object, arguments: Sequence[Any], phrases: Sequence[object]) -> None:
+    """Names, arguments and phrases are what they should be.
+
+    Raises:
+        ValueError: They are not.
+    """
+    for each in arguments:
+        if not isinstance(each, Whole | Number | Choice):
+            raise ValueError(f"{name}: expected arguments Whole, Number or Choice, got {each!r}")
+    known = [*(each.name for each in arguments), "comparison", "value"]
+    for phrase in (name, *phrases):
+        if not isinstance(phrase, str):
+            raise ValueError(f"{name}: expected a text, got {phrase!r}")
+        try:
+            filled_in = [part[1] for part in Formatter().parse(phrase) if part[1] is not None]
+        except ValueError as error:
+            raise ValueError(f"{name}: {phrase!r}: {error}") from error
+        if unknown := [each for each in filled_in if each not in known]:
+            raise ValueError(
+                f"{name}: {phrase!r}: expected one of {', '.join(known)} in braces, "
+                f"got {unknown[0]!r}"
+            )
 
 
 def register(
@@ -79,6 +108,7 @@ def register(
         on: Phrase for setting it, `light up {value}`.
         off: Phrase for clearing it, if it is true or false.
     """
+    _require_words(name, (), (on, off))
     is_flag = isinstance(values[0], bool)
     word = InternalStateName(
         name,
@@ -122,6 +152,7 @@ def behaviour(
         paced: Whether the function returns its share of the highest speed, too.
     """
     if isinstance(word, str):
+        _require_words(word, arguments, (doing, starting))
         plain = (
             word if not arguments else f"{word}({', '.join(f'{{{a.name}}}' for a in arguments)})"
         )
