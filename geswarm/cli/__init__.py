@@ -20,6 +20,7 @@ from geswarm.cli.arguments import (
 )
 from geswarm.cli.compare import add_compare
 from geswarm.cli.experiments import add_experiment_verbs
+from geswarm.cli.imports import add_import
 from geswarm.cli.library import add_library_verbs
 from geswarm.cli.reproduce import add_reproduce
 from geswarm.cli.rules import add_rule_verbs
@@ -46,5 +47,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add_compare(verbs)
     add_reproduce(verbs)
     add_rule_verbs(verbs)
+    add_import(verbs)
     add_library_verbs(verbs)
     return run_command(parser, arguments)

@@ -112,7 +112,7 @@ def find_rule_set(reference: str) -> RuleSetText:
         return RuleSetText(path.read_text(encoding="utf-8"), str(path))
     source = "<stdin>" if reference == "-" else reference
     try:
-        text = _read_stdin() if reference == "-" else read_file(reference, MAX_CHARACTERS)
+        text = read_stdin() if reference == "-" else read_file(reference, MAX_CHARACTERS)
     except NotTextError as error:
         raise RuleSetError([Finding(Place(source), str(error))]) from error
     except (OSError, ValueError) as error:
@@ -124,7 +124,13 @@ def find_rule_set(reference: str) -> RuleSetText:
     return RuleSetText(text, source)
 
 
-def _read_stdin() -> str:
+def read_stdin() -> str:
+    """All text of standard input, or so much of it that it can be told to be too long.
+
+    Raises:
+        OSError: It cannot be read.
+        NotTextError: It is not text in UTF-8.
+    """
     if sys.stdin is None:
         raise OSError("it is closed")
     stream = getattr(sys.stdin, "buffer", None)  # none where something else stands for it
