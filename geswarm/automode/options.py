@@ -222,7 +222,7 @@ class Options:
             late = begin in self._given and given.at < self._given[begin].at
             early = end in self._given and given.at > self._given[end].at
             if late or early:
-                where = f"between {begin} and {end}" if end in self._given else f"behind {begin}"
+                where = f"behind {begin}" if late else f"before {end}"
                 return f"{given.option.text}: expected {where}, where AutoMoDe looks for it"
         return None
 
