@@ -9,6 +9,7 @@ True
 
 from geswarm.automode.as_rules import Conversion, to_rules
 from geswarm.automode.departures import Departure
+from geswarm.automode.from_rules import Expressed, from_rules
 from geswarm.automode.machine import Machine, State, Transition
 from geswarm.automode.machine_text import format_machine
 from geswarm.automode.modules import Behaviour, Condition
@@ -37,6 +38,7 @@ __all__ = [
     "Controller",
     "Conversion",
     "Departure",
+    "Expressed",
     "Machine",
     "Situation",
     "State",
@@ -47,6 +49,7 @@ __all__ = [
     "format_controller",
     "format_machine",
     "format_tree",
+    "from_rules",
     "next_situations",
     "read_controllers",
     "read_machines",

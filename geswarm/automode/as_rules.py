@@ -14,11 +14,13 @@ MOST_VALUES it is not, and what differs is told.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from geswarm.automode.choices import Choice, choices_of, orders_of
+from geswarm.automode.choices import Choice, choices_of, orders_of, outcome
 from geswarm.automode.departures import Departure, departures_of
+from geswarm.automode.drawing import REGISTER
 from geswarm.automode.machine import Machine
 from geswarm.automode.machine_text import format_machine
 from geswarm.automode.modules import Condition
@@ -32,8 +34,6 @@ from geswarm.rules.model import (
     Term,
 )
 
-REGISTER = "STATE"
-"""The internal state that holds the machine's."""
 MOST_VALUES = 16
 """Of STATE: control tables grow with their third power."""
 COMMENT = "AutoMoDe: "
@@ -98,10 +98,23 @@ def to_rules(machine: Machine, name: str = "", scenario: str = "") -> Conversion
     departures = (
         departure
         for number, ways in enumerate(insides)
-        for departure in departures_of(machine, number, [each.choices for each in ways])
+        for departure in departures_of(machine, number, _does(number, ways))
     )
     values = _values(insides) if len(machine.states) > 1 else ()
     return Conversion(rule_set, values, tuple(departures))
+
+
+def _does(number: int, ways: Sequence[_Inside]) -> Callable[[str, int], Mapping[int, float]]:
+    """What the rules do in a state: each of its values of STATE is as probable as the others."""
+
+    def does(floor: str, neighbours: int) -> Mapping[int, float]:
+        shares: dict[int, float] = defaultdict(float)
+        for way in ways:
+            for state, p in outcome(way.choices, number, floor, neighbours).items():
+                shares[state] += p / len(ways)
+        return shares
+
+    return does
 
 
 def _values(insides: Sequence[Sequence[_Inside]]) -> tuple[str, ...]:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from geswarm.automode.choices import Choice, outcome
 from geswarm.automode.machine import Machine
 from geswarm.automode.modules import FLOORS
 from geswarm.automode.steps import Situation, next_situations
 
 _MOST_NEIGHBOURS = 64
 """The most that are tried: far more than any xi tells apart."""
-_TOLERANCE = 1e-12
+_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -52,18 +50,19 @@ def _told(shares: Mapping[int, float]) -> str:
 
 
 def departures_of(
-    machine: Machine, number: int, ways: Sequence[Sequence[Choice]]
+    machine: Machine, number: int, rules: Callable[[str, int], Mapping[int, float]]
 ) -> Iterator[Departure]:
     """The greatest difference on each floor, if there is one.
 
     Args:
         machine: The machine.
         number: Of the state.
-        ways: Choices that rules make there, one sequence of which is drawn in each step.
+        rules: What rules do there on a floor with a number of neighbours: probability of each next
+            state, the same one for staying.
     """
     for floor in FLOORS:
         found = max(
-            (_departure(machine, number, ways, floor, n) for n in range(_MOST_NEIGHBOURS)),
+            (_departure(machine, number, rules, floor, n) for n in range(_MOST_NEIGHBOURS)),
             key=lambda each: each.distance,
         )
         if found.distance > _TOLERANCE:
@@ -71,14 +70,14 @@ def departures_of(
 
 
 def _departure(
-    machine: Machine, number: int, ways: Sequence[Sequence[Choice]], floor: str, neighbours: int
+    machine: Machine,
+    number: int,
+    rules: Callable[[str, int], Mapping[int, float]],
+    floor: str,
+    neighbours: int,
 ) -> Departure:
     """What machine and rules do in a state, for one reading."""
     here = Situation(number, False)
     exact = next_situations(machine, here, lambda each: each.chance(floor, neighbours))
-    rules: dict[int, float] = defaultdict(float)
-    for choices in ways:
-        for state, p in outcome(choices, number, floor, neighbours).items():
-            rules[state] += p / len(ways)
     does = {situation.state: float(p) for situation, p in exact.items()}
-    return Departure(number, floor, neighbours, does, dict(rules))
+    return Departure(number, floor, neighbours, does, rules(floor, neighbours))

@@ -1,10 +1,12 @@
 """A state machine as an AutoMoDe command line (`--fsm-config`), for what AutoMoDe can express.
 
-AutoMoDe's robots see the colour of the floor and carry nothing. The nest is white and the source
-black, as in AutoMoDe's own foraging missions, all else grey. `HAS_OBJECT` is taken as false, and
-what needs it true is left out. On each colour, the transitions of a state are drawn in random order
-until one happens; the probabilities are those that come to the same as the rules. AutoMoDe looks at
-a state's transitions from the second step in it on.
+Rules over AutoMoDe's own terms (`geswarm.automode`) become the machine that does the same; where
+none does, the warnings say what differs. In the words of foraging it is less direct: AutoMoDe's
+robots see the colour of the floor and carry nothing. The nest is white and the source black, as in
+AutoMoDe's own foraging missions, all else grey. `HAS_OBJECT` is taken as false, and what needs it
+true is left out. On each colour, the transitions of a state are drawn in random order until one
+happens; the probabilities are those that come to the same as the rules. AutoMoDe looks at a state's
+transitions from the second step in it on.
 """
 
 from __future__ import annotations
@@ -14,10 +16,12 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from geswarm.automode import format_controller, from_rules
 from geswarm.exports.counterparts import CounterpartError, require_counterparts
 from geswarm.rules.elements import format_probability
 from geswarm.rules.findings import Finding, Place
 from geswarm.rules.model import RuleSet
+from geswarm.rules.names import require_known_names
 from geswarm.rules.state_machine import StateMachine, Transition
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -29,6 +33,8 @@ _FLOORS = (
     (2, {"ON_NEST": True, "ON_SOURCE": False, "HAS_OBJECT": False}),
 )
 _ANY_FLOOR = 5
+_OWN = {"EXPLORATION", "FLOOR", "CROWDED", "ALONE"}
+"""Terms by which a vocabulary is known to be AutoMoDe's."""
 _KNOWN = (*_BEHAVIOURS, *FORAGING.percepts, *FORAGING.state_names)
 
 
@@ -49,9 +55,12 @@ def to_automode(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> AutoMoD
     """Translate a rule set.
 
     Raises:
-        RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
-        CounterpartError: It mentions a term that is none of foraging's.
+        RuleSetError: A name is not in the vocabulary, a probability is outside [0, 1], or there are
+            more states or transitions than AutoMoDe has.
+        CounterpartError: It mentions a term that has no counterpart.
     """
+    if _OWN & (vocabulary.behaviour_names.keys() | vocabulary.percepts.keys()):
+        return _of_own_terms(rule_set, vocabulary)
     require_counterparts(rule_set, "AutoMoDe", _KNOWN)
     if vocabulary.initial_behaviour not in _BEHAVIOURS:
         message = f"{vocabulary.initial_behaviour} has no counterpart in AutoMoDe"
@@ -62,6 +71,14 @@ def to_automode(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> AutoMoD
     for number, state in enumerate(order):
         words += _state_words(machine, order, number, state)
     return AutoMoDe(" ".join(words), tuple(dict.fromkeys(_warnings(machine))))
+
+
+def _of_own_terms(rule_set: RuleSet, vocabulary: Vocabulary) -> AutoMoDe:
+    """Rules that mention AutoMoDe's modules by name."""
+    require_known_names(rule_set, vocabulary)
+    expressed = from_rules(rule_set, vocabulary)
+    warnings = tuple(f"not the same in {each}" for each in expressed.departures)
+    return AutoMoDe(format_controller(expressed.machine), warnings)
 
 
 def format_automode(rule_set: RuleSet, vocabulary: Vocabulary = FORAGING) -> str:

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geswarm.automode import Situation, next_situations, read_machines, to_rules
-from geswarm.automode.as_rules import COMMENT, MOST_VALUES, REGISTER
+from geswarm.automode.as_rules import COMMENT, MOST_VALUES
+from geswarm.automode.drawing import REGISTER
 from geswarm.automode.modules import BEHAVIOURS, FLOORS, NEIGHBOUR_COUNTS, crowded_chance
 from geswarm.rules import ControlTable, Vocabulary, parse_yaml
 from geswarm.rules.anything import ANYTHING
