@@ -104,17 +104,19 @@ class _State:
             message = f"expected at most {MOST_TRANSITIONS} transitions from {behaviour}"
             finding = Finding(Place(), f"AutoMoDe: {message}, got {found}")
             raise RuleSetError([finding], self.rule_set.scenario)
-        others = [k for k in range(len(self.situations.behaviours)) if k != self.number]
-        tried = (
-            (*map(Transition, targets, counts), *always)
-            for always in fitting
-            for targets in product(others, repeat=len(counts))
-        )
+        tried = ((*led, *always) for always in fitting for led in self._led(counts))
         judged = ((each, self._departures(each)) for each in tried)
         best, departures = min(
             judged, key=lambda each: max((one.distance for one in each[1]), default=0.0)
         )
         return State(self.situations.behaviours[self.number], best), departures
+
+    def _led(self, counts: Sequence[Condition]) -> Iterator[tuple[Transition, ...]]:
+        """Every way in which neighbour counts can lead to other states, or nowhere."""
+        others = [k for k in range(len(self.situations.behaviours)) if k != self.number]
+        for targets in product((*others, None), repeat=len(counts)):
+            pairs = zip(targets, counts, strict=True)
+            yield tuple(Transition(target, each) for target, each in pairs if target is not None)
 
     def _counts(self) -> Iterator[Condition]:
         """The neighbour counts that make a difference here, in the order of the rules."""

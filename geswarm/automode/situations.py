@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import zlib
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -123,11 +124,13 @@ def behaviour_of(term: Term) -> Behaviour:
 def _of_behaviours(rules: tuple[Rule, ...], initial: Term) -> Situations | str:
     """Every behaviour that can come from the first is a state.
 
-    One that rules leave for certain before a robot acts for the first time does not count.
+    Where it makes no difference that robots do not start with another one, they do: rules leave the
+    first behaviour for that one before a robot acts.
     """
-    at_once = after_rules(rules, Doing(initial), lambda _: 0.5)
-    if len(at_once) == 1:
-        initial = next(iter(at_once)).behaviour
+    at_once = after_rules(rules, Doing(initial), _some_chance)
+    if Doing(initial) not in at_once:
+        alike = (each for each in at_once if _same(after_rules(rules, each, _some_chance), at_once))
+        initial = next(alike, Doing(initial)).behaviour
     if problem := _behaviour_problem(initial):
         return f"initial behaviour {initial}: {problem.partition(': ')[2]}"
     found, at = [initial], 0
@@ -141,6 +144,11 @@ def _of_behaviours(rules: tuple[Rule, ...], initial: Term) -> Situations | str:
     return Situations(
         tuple(map(behaviour_of, found)), rules, tuple((Doing(each),) for each in found)
     )
+
+
+def _some_chance(precondition: Precondition) -> float:
+    """Another one for each precondition: what is equal then is equal whatever a robot senses."""
+    return 0.25 + zlib.crc32(str(precondition).encode()) / 2**33
 
 
 def _of_register(rules: tuple[Rule, ...], vocabulary: Vocabulary) -> Situations | str:
@@ -185,6 +193,11 @@ def _entering_problem(
     if not _as_likely(list(after.values())):
         return f"{REGISTER}: expected enter{number} to become each in{number} as probably"
     return None
+
+
+def _same(one: Mapping[Doing, float], other: Mapping[Doing, float]) -> bool:
+    found = one.keys() | other.keys()
+    return all(_as_likely([one.get(each, 0.0), other.get(each, 0.0)]) for each in found)
 
 
 def _as_likely(chances: Sequence[float]) -> bool:

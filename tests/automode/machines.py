@@ -13,12 +13,22 @@ from geswarm.automode import (
     Transition,
     Tree,
 )
+from geswarm.automode.drawing import REGISTER
 from geswarm.automode.modules import (
     BEHAVIOURS,
     CONDITIONS,
+    FLOORS,
     TREE_BEHAVIOURS,
     TREE_CONDITIONS,
     Numeral,
+)
+from geswarm.rules import Vocabulary
+from geswarm.rules.arguments import Number, Whole
+from geswarm.rules.declarations import (
+    BehaviourName,
+    InternalStateName,
+    PreconditionName,
+    Reading,
 )
 
 AAC = (
@@ -90,3 +100,36 @@ def _nodes(levels):
 
 
 trees = st.builds(Tree, _controls(_nodes(3)))
+
+
+def vocabulary(values):
+    """What a scenario has to offer; what makes a neighbour count true is not in it."""
+    counts = (Whole("xi", 1, 10), Number("eta", 0, 20, 0.5))
+    arguments = {
+        "EXPLORATION": (Whole("rwm", 1, 100),),
+        "ATTRACTION": (Number("gain", 1, 5, 0.5),),
+        "REPULSION": (Number("gain", 1, 5, 0.5),),
+    }
+    return Vocabulary(
+        (
+            PreconditionName("FLOOR", "on {value}", "not on {value}", "floor"),
+            *(
+                PreconditionName(name, name, name, "heard", counts, lambda n, xi, eta: n >= xi)
+                for name in ("CROWDED", "ALONE")
+            ),
+        ),
+        tuple(
+            BehaviourName(
+                each.term, each.term, each.term, not each.number, arguments.get(each.term, ())
+            )
+            for each in BEHAVIOURS.values()
+        ),
+        (
+            InternalStateName(
+                REGISTER, "{value}", initially=values[0], readable=True, values=values
+            ),
+        ),
+        (0.5, 1.0),
+        "STOP",
+        readings=(Reading("floor", FLOORS), Reading("heard", tuple(range(20)))),
+    )

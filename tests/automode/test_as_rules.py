@@ -11,19 +11,12 @@ from hypothesis import strategies as st
 from geswarm.automode import Situation, next_situations, read_machines, to_rules
 from geswarm.automode.as_rules import COMMENT, MOST_VALUES
 from geswarm.automode.drawing import REGISTER
-from geswarm.automode.modules import BEHAVIOURS, FLOORS, NEIGHBOUR_COUNTS, crowded_chance
-from geswarm.rules import ControlTable, Vocabulary, parse_yaml
+from geswarm.automode.modules import FLOORS, NEIGHBOUR_COUNTS, crowded_chance
+from geswarm.rules import ControlTable, parse_yaml
 from geswarm.rules.anything import ANYTHING
-from geswarm.rules.arguments import Number, Whole
-from geswarm.rules.declarations import (
-    BehaviourName,
-    InternalStateName,
-    PreconditionName,
-    Reading,
-)
 from geswarm.rules.model import BehaviourChange
 from geswarm.rules.yaml_form import format_yaml
-from tests.automode.machines import AAC, machines
+from tests.automode.machines import AAC, machines, vocabulary
 
 ORDERED = (
     "--nstates 3 --s0 1 --n0 4 --n0x0 0 --c0x0 3 --p0x0 2 --w0x0 1.5 --n0x1 1 --c0x1 4 --p0x1 3 "
@@ -215,32 +208,6 @@ def test_rules_are_written_and_read_again():
     assert read_machines(rules.comment.removeprefix(COMMENT)) == (machine,)
     firsts = [each for each in rules.rules if each.comment]
     assert [each.comment for each in firsts][:2] == ["State 0: stop", "State 1: phototaxis"]
-
-
-def vocabulary(values):
-    """What a scenario has to offer for machines that count no neighbours."""
-    arguments = {
-        "EXPLORATION": (Whole("rwm", 1, 100),),
-        "ATTRACTION": (Number("gain", 1, 5, 0.5),),
-        "REPULSION": (Number("gain", 1, 5, 0.5),),
-    }
-    return Vocabulary(
-        (PreconditionName("FLOOR", "on {value}", "not on {value}", "floor"),),
-        tuple(
-            BehaviourName(
-                each.term, each.term, each.term, not each.number, arguments.get(each.term, ())
-            )
-            for each in BEHAVIOURS.values()
-        ),
-        (
-            InternalStateName(
-                REGISTER, "{value}", initially=values[0], readable=True, values=values
-            ),
-        ),
-        (0.5, 1.0),
-        "STOP",
-        readings=(Reading("floor", FLOORS),),
-    )
 
 
 @settings(max_examples=20, deadline=None)

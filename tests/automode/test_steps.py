@@ -1,6 +1,7 @@
 """What machines and trees do in a step, against other ways to work it out."""
 
 from fractions import Fraction
+from itertools import permutations
 
 import pytest
 from hypothesis import given
@@ -43,8 +44,6 @@ def by_priorities(chances):
 
 @given(st.lists(st.tuples(st.integers(0, 3), fractions), max_size=4))
 def test_a_random_order_is_a_random_priority_of_each(chances):
-    from itertools import permutations
-
     assert first_true(chances, permutations(range(len(chances)))) == by_priorities(chances)
 
 
