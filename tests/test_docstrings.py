@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 import geswarm.analysis
+import geswarm.automode
+import geswarm.automode.machine
 import geswarm.evolution
 import geswarm.exports
 import geswarm.ge
@@ -18,6 +20,8 @@ import geswarm.sim
 @pytest.mark.parametrize(
     "module",
     [
+        geswarm.automode,
+        geswarm.automode.machine,
         geswarm.rules,
         geswarm.exports,
         geswarm.rules.state_machine,

@@ -33,6 +33,7 @@ _PAGES = {
     "scenarios": "Scenario files",
     "terms": "All terms and measures",
     "own-terms": "Terms of one's own",
+    "automode": "For AutoMoDe users",
     "commands": "Commands in detail",
 }
 """In the order in which they are read."""

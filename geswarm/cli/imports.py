@@ -13,6 +13,7 @@ from geswarm.cli.output import print_texts, write_files
 
 if TYPE_CHECKING:
     from geswarm.automode import Controller, Conversion
+    from geswarm.sim import Scenario
 
 
 def add_import(verbs: Verbs) -> None:
@@ -97,7 +98,7 @@ def _as_rules(controllers: Sequence[Controller], options: argparse.Namespace) ->
     if not isinstance(controller, Machine):
         raise UsageError("rules: expected a machine, got a behaviour tree, which rules cannot say")
     name = "AutoMoDe" if options.file == "-" else Path(options.file).stem
-    return to_rules(controller, name, options.scenario or "")
+    return to_rules(controller, name, _scenario(options.scenario).name if options.scenario else "")
 
 
 def _yaml(conversion: Conversion, scenario: str | None) -> str:
@@ -111,18 +112,24 @@ def _yaml(conversion: Conversion, scenario: str | None) -> str:
 def _missing(conversion: Conversion, scenario: str | None) -> str:
     """What a scenario does not offer of what the rules mention; empty if it offers everything."""
     from geswarm.rules.names import name_errors, unknown_terms
-    from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
+    from geswarm.sim import vocabulary_of
 
     if scenario is None:
         return ""
-    try:
-        vocabulary = vocabulary_of(load_scenario(scenario))
-    except ScenarioError as error:
-        raise UsageError(str(error)) from error
+    vocabulary = vocabulary_of(_scenario(scenario))
     if unknown := unknown_terms(conversion.rule_set, vocabulary):
         return f"{scenario} does not offer {', '.join(unknown)}"
     errors = dict.fromkeys(each.message for each in name_errors(conversion.rule_set, vocabulary))
     return "\n".join(f"{scenario}: {message}" for message in errors)
+
+
+def _scenario(name: str) -> Scenario:
+    from geswarm.sim import ScenarioError, load_scenario
+
+    try:
+        return load_scenario(name)
+    except ScenarioError as error:
+        raise UsageError(str(error)) from error
 
 
 def _show(controllers: Sequence[Controller], options: argparse.Namespace) -> None:

@@ -24,6 +24,7 @@ const GUIDE = [
   ["scenarios", "Scenario files"],
   ["terms", "All terms"],
   ["own-terms", "Own terms"],
+  ["automode", "AutoMoDe"],
   ["commands", "Commands"],
 ];
 

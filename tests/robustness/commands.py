@@ -30,6 +30,7 @@ GESWARM = {
     "check": (),
     "equal": ("--json",),
     "export": ("--to", "-o", "--scenario", "--experiment", "--strict"),
+    "import": ("--from", "--as", "-o", "--number"),
     "nonsense": (),
 }
 GESWARM_UI = ("--scenario", "--preset", "--generations", "--population", "--evaluations", "--seed",
