@@ -10,6 +10,7 @@ import difflib
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from string import ascii_letters
 from typing import TypeAlias
 
 from geswarm.automode.modules import Module, Numeral, Parameter
@@ -18,6 +19,8 @@ from geswarm.rules.findings import Finding, Place, shown
 from geswarm.rules.limits import MAX_CHARACTERS
 
 _WORD = re.compile(r"""[^\s"']+""")
+_MOST_HINTS = 40
+"""Names among which the nearest to a wrong one is looked for."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 Path: TypeAlias = tuple[int, ...]
@@ -129,7 +132,8 @@ class Options:
     def ignore_node(self, suffix: str) -> None:
         """A node of a tree, and those below it, of which cannot be told whether they are right."""
         for name in self._given:
-            if re.fullmatch(rf"--[a-z]+{suffix}\d*", name, re.ASCII):
+            node = name.lstrip("-").lstrip(ascii_letters)
+            if node.startswith(suffix) and node.isdigit():
                 self.ignore(name)
 
     def error_at(self, name: str, message: str) -> None:
@@ -210,7 +214,8 @@ class Options:
         if reason := self._refused.get(name):
             return f"{name}: {reason}"
         missing = [each for each in self._asked if each not in self._given]
-        near = difflib.get_close_matches(name, missing, n=1)
+        few = missing if len(missing) <= _MOST_HINTS else []
+        near = difflib.get_close_matches(name, few, n=1)
         hint = f"did you mean {near[0]}?" if near else "nothing here has such an option"
         return f"unknown option {shown(name)}; {hint}"
 

@@ -17,6 +17,9 @@ from geswarm.rules.limits import too_long
 
 Controller: TypeAlias = Machine | Tree
 
+_MOST_WORDS = 1000
+"""On a line: several times as many as the largest published tree has."""
+
 _Read = TypeVar("_Read", Machine, Tree, Controller)
 _Reader: TypeAlias = Callable[[Sequence[Word], str], tuple[_Read | None, Options]]
 
@@ -70,9 +73,15 @@ def _read(text: str, source: str, reader: _Reader[_Read], expected: str) -> tupl
         at = max(
             (names.index(each) for each in (FSM_OPTION, BT_OPTION) if each in names), default=-1
         )
+        problem = None
         if at == len(words) - 1:
-            place = Place(source, words[at].line, element=f"column {words[at].column}")
-            findings.append(Finding(place, f"expected {expected} behind {names[at]}, got nothing"))
+            problem = f"expected {expected} behind {names[at]}, got nothing"
+        elif len(words) > _MOST_WORDS:
+            problem = f"expected at most {_MOST_WORDS} words for a controller, got {len(words)}"
+        if problem:
+            word = words[max(at, 0)]
+            place = Place(source, word.line, element=f"column {word.column}")
+            findings.append(Finding(place, problem))
             continue
         controller, options = reader(words[at + 1 :], source)
         findings += options.findings

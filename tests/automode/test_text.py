@@ -203,7 +203,7 @@ def test_wrong_trees_are_explained(text):
 
 def test_trees_are_at_most_five_levels_deep():
     deep = "--nroot 0 --nchildroot 1"
-    for level in range(1, 300):
+    for level in range(1, 200):
         name = "0" * level
         deep += f" --n{name} 0 --nchild{name} 1"
     (problem,) = problems(deep)
@@ -214,6 +214,8 @@ def test_errors_in_all_lines_are_told():
     assert [each[:8] for each in problems("--nstates 0\n--nroot 9\n")] == [
         "x.txt:1:", "x.txt:2:", "x.txt:2:",
     ]  # fmt: skip
+    (many,) = problems("--n0 1 " * 501)
+    assert many == "x.txt:1: column 1: expected at most 1000 words for a controller, got 1002"
     (long,) = problems("x" * 200_001)
     assert long == "x.txt: expected at most 200000 characters, got more"
 
