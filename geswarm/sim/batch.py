@@ -18,7 +18,7 @@ import numpy.typing as npt
 from geswarm.rules.findings import RuleSetError
 from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
-from geswarm.sim.assembly.records import OBJECT, Records, robot_type, work_type
+from geswarm.sim.assembly.records import OBJECT, Records, robot_type, room
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.controllers.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
 from geswarm.sim.controllers.program import Instances
@@ -182,9 +182,8 @@ class Group:
         self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
         self.width = _LANES_OF_A_VECTOR * -(-len(simulations) // _LANES_OF_A_VECTOR)
         filled = np.pad(simulations, ((0, self.width - len(simulations)), (0, 0)), mode="edge")
-        self.robots = np.zeros(scenario.robots, dtype=robot_type(parts, layout))
-        self.objects = np.zeros(scenario.objects, dtype=OBJECT)
-        self._work = np.zeros(1, dtype=work_type(parts, layout))[0]
+        self.robots = room(scenario.robots, robot_type(parts, layout))
+        self.objects = room(scenario.objects, OBJECT)
         self._controller = controllers.for_lanes(filled[:, 0])
         began = start_of(scenario, filled, parts)
         for name in ("x", "y"):
@@ -198,7 +197,7 @@ class Group:
 
     def run(self, first: int, steps: int) -> None:
         """Run control steps first..first+steps-1."""
-        records = (self._numbers, self.robots, self.objects, self._work)
+        records = (self._numbers, self.robots, self.objects)
         self._kernel.run(*records, *self._controller, self.width, first, steps)
 
     def measured(self, name: str) -> Values:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.sim.assembly.kernel import assemble
-from geswarm.sim.assembly.records import robot_type, work_type
+from geswarm.sim.assembly.records import robot_type, room
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.controllers.encoding import (
     fill_robots,
@@ -45,9 +45,8 @@ class Swarm:
         self._kernel = assemble(parts, self.layout)
         self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
         blocks = -(-scenario.robots // LANES)
-        self.blocks = np.zeros(blocks, dtype=robot_type(parts, self.layout))
+        self.blocks = room(blocks, robot_type(parts, self.layout))
         self.objects = np.zeros((scenario.objects, 2), dtype=np.float32)
-        self._work = np.zeros(1, dtype=work_type(parts, self.layout))[0]
         self._grid = grid_for(scenario)
         self.steps = 0
 
@@ -86,7 +85,7 @@ class Swarm:
         end = self.steps + steps
         while self.steps < end:
             left = end - self.steps
-            arguments = (self._numbers, self.blocks, self.objects, self._work, *controller)
+            arguments = (self._numbers, self.blocks, self.objects, *controller)
             self.steps += self._kernel.run(*arguments, self._grid, self.steps, left)
             if self.steps < end:
                 self._make_room(-int(self._grid.listed[0]))

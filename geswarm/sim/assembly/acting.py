@@ -198,7 +198,7 @@ def move(source: Source) -> None:
     paced = any(behaviour.paced for behaviour in source.parts.behaviours)
     with source.lanes():
         ground.remember(source)
-        ground.prelude(source, *source.parts.behaviours, *source.parts.steering)
+        ground.prelude(source, *source.parts.behaviours, *source.parts.steering, moves=True)
         source(f"behaviour = {_which(source)}")
         for code, behaviour in enumerate(source.parts.behaviours):
             results = f"to_x_{code}, to_y_{code}" + (f", pace_{code}" if behaviour.paced else "")

@@ -68,6 +68,7 @@ def _draw_from_table(source: Source) -> None:
         source("work.row[lane] = U(U(robot.behaviour[lane]) + group.rows[lane])")
         source("low, high = robot.key_low[lane], robot.key_high[lane]")
         source("work.bits[lane] = draw_bits(low, high, step, OUTCOME)")
+        ground.keep(source)
     source(
         "# Decide: class, row, slot, which of its two outcomes. A look-up has a loop of its own."
     )
@@ -129,6 +130,7 @@ def _sense(source: Source) -> None:
                 source(f"missed = I(may_miss_{sensor.name} & I(drawn <= miss_{sensor.name}))")
                 source(f"{now} = I({now} * I(I(1) - missed))")
             source(f"work.{now}[lane] = {now}")
+        ground.keep(source)
         code = _code(source, [f"{sensor.name}_now" for sensor in source.parts.sensors])
         source(f"seen = I(U({code} % U({source.parts.sensed_codes})))")
         source("memory = I(I(robot.behaviour[lane] * I(STATES)) + robot.state[lane])")

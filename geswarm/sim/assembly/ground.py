@@ -25,6 +25,7 @@ from geswarm.sim.terms.ground import Form, Ground
 
 if TYPE_CHECKING:
     from geswarm.sim.assembly.source import Source
+    from geswarm.sim.terms.parts import Parts
 
 PUSH, TO_LIGHT, BRIGHTNESS = ("push_x", "push_y"), ("to_light_x", "to_light_y"), "brightness"
 FRESH = ("fresh_x", "fresh_y")
@@ -38,6 +39,8 @@ _NUMBERS = {
     "turned": (*_BOX, "cos", "sin"),
     **dict.fromkeys(("south", "north", "west", "east"), ("edge",)),
 }
+_AT_ONCE = 3
+"""Walls off which robots are pushed in one loop."""
 _WALL = ("x", "y", "along_x", "along_y", "length")
 _PLACES = {
     "box": ("x", "half_width", "south", "depth"),
@@ -113,9 +116,36 @@ def _numbers(source: Source, prefix: str, names: tuple[str, ...]) -> str:
     return ", ".join(source.number(f"{prefix}_{name}") for name in names)
 
 
-def prelude(source: Source, *components: Component | None) -> None:
-    """At the top of a loop over the lanes: variables that some of these components name."""
+def kept(parts: Parts) -> tuple[str, ...]:
+    """What sensors and the motion both name, and where no update moves robots in between.
+
+    It is worked out once in a step, where robots sense, and then stands in `work`.
+    """
+    if any({"x", "y"} & set(update.writes) for update in parts.updates):
+        return ()
+    sensed = {name for each in parts.sensors for name in each.needs}
+    moved = {name for each in (*parts.behaviours, *parts.steering) for name in each.needs}
+    groups = (PUSH, TO_LIGHT, (BRIGHTNESS,))
+    both = (group for group in groups if sensed & set(group) and moved & set(group))
+    return tuple(name for group in both for name in group)
+
+
+def keep(source: Source) -> None:
+    """At the end of the loop in which robots sense."""
+    for name in kept(source.parts):
+        source(f"work.{name}[lane] = {variable(name)}")
+
+
+def prelude(source: Source, *components: Component | None, moves: bool = False) -> None:
+    """At the top of a loop over the lanes: variables that some of these components name.
+
+    If it is the loop in which robots move, some stand in `work` already.
+    """
     needs = {name for each in components if each is not None for name in each.needs}
+    if moves:
+        for name in kept(source.parts):
+            source(f"{variable(name)} = work.{name}[lane]")
+        needs -= set(kept(source.parts))
     pushed, lit = needs & set(PUSH), needs & set(TO_LIGHT)
     if not (pushed or lit or BRIGHTNESS in needs):
         return
@@ -215,21 +245,84 @@ def remember(source: Source) -> None:
 
 
 def keep_inside(source: Source) -> None:
-    """After robots have moved: push them off the walls, or back to where they were."""
+    """After the robots of a block have moved: push them off the walls, or back where they were.
+
+    Unless one clamp does it, it is seen first whether some robot is near any wall: that is less
+    than half of the work, and in most blocks all.
+    """
+    if source.parts.ground.is_plain:
+        with source.lanes():
+            source("x, y = robot.x[lane], robot.y[lane]")
+            _stay_in_outline(source)
+            _moved(source)
+        return
+    source("some = I(0)")
+    with source.lanes():
+        source("x, y = robot.x[lane], robot.y[lane]")
+        _look_for_walls(source)
+    with source.inside("if some:"):
+        _push_inside(source)
+
+
+def _look_for_walls(source: Source) -> None:
+    """Whether some robot is so near to something that it may have to be pushed or go back."""
+    radius = source.number("radius")
+    gaps = [f"{surface}[0]" for surface in _in_the_way(source)]
+    if source.parts.ground.outline == "box":
+        gaps.append(f"geometry.box_gap(x, y, {_extent(source)})")
+    elif source.parts.ground.outline == "disc":
+        gaps.append(f"geometry.round_wall(x, y, {source.number('arena_radius')})[0]")
+    source(f"nearest = {gaps[0]}")
+    for gap in gaps[1:]:
+        source(f"gap = {gap}\nnearest = gap if gap < nearest else nearest")
+    source(f"near = I(nearest < {radius})")
+    if source.parts.ground.may_be_crossed:
+        _look_how_far(source)
+        source("near = I(near | I(moved2 >= too_far * too_far))")
+    source("some = I(some | near)")
+
+
+def _look_how_far(source: Source) -> None:
+    source("moved_x, moved_y = x - robot.before_x[lane], y - robot.before_y[lane]")
+    source(f"too_far = F(1.999) * {source.number('clearance')}")
+    source("moved2 = fma(moved_x, moved_x, moved_y * moved_y)")
+
+
+def _stay_in_outline(source: Source) -> None:
     ground, radius = source.parts.ground, source.number("radius")
-    source("x, y = robot.x[lane], robot.y[lane]")
     if ground.outline == "box":
         reach = f"half_width - {radius}, half_length - {radius}"
         _extent(source)
         source(f"x, y = geometry.stay_in_box(x, y, {reach})")
     elif ground.outline == "disc":
         source(f"x, y = geometry.stay_in_disc(x, y, {source.number('arena_radius')} - {radius})")
-    for surface in _in_the_way(source):
-        source(f"gap, normal_x, normal_y = {surface}\nmore = geometry.above_zero({radius} - gap)")
-        source("x, y = fma(more, normal_x, x), fma(more, normal_y, y)")
-    if not ground.is_plain:
-        _go_back(source)
+
+
+def _moved(source: Source) -> None:
     source("robot.x[lane], robot.y[lane] = x, y")  # once, or LLVM fears that the loop meets itself
+
+
+def _push_inside(source: Source) -> None:
+    """Push robots off one wall after the other.
+
+    Each push waits for the one before it. In short loops the processor does several vectors of
+    lanes at once meanwhile.
+    """
+    radius, surfaces = source.number("radius"), list(_in_the_way(source))
+    for begin in range(0, len(surfaces), _AT_ONCE):
+        with source.lanes():
+            source("x, y = robot.x[lane], robot.y[lane]")
+            if begin == 0:
+                _stay_in_outline(source)
+            for surface in surfaces[begin : begin + _AT_ONCE]:
+                source(f"gap, normal_x, normal_y = {surface}")
+                source(f"more = geometry.above_zero({radius} - gap)")
+                source("x, y = fma(more, normal_x, x), fma(more, normal_y, y)")
+            _moved(source)
+    with source.lanes():
+        source("x, y = robot.x[lane], robot.y[lane]")
+        _go_back(source)
+        _moved(source)
 
 
 def _go_back(source: Source) -> None:
@@ -245,9 +338,7 @@ def _go_back(source: Source) -> None:
     for surface in _in_the_way(source):
         source(f"gap, normal_x, normal_y = {surface}\ngoes_back = I(goes_back | I(gap < clear))")
     if ground.may_be_crossed:
-        source("moved_x, moved_y = x - robot.before_x[lane], y - robot.before_y[lane]")
-        source("too_far = F(1.999) * clear")
-        source("moved2 = fma(moved_x, moved_x, moved_y * moved_y)")
+        _look_how_far(source)
         source("goes_back = I(goes_back | I(moved2 >= too_far * too_far))")
     for field in fields(ground, source.layout.wide):
         now = field.removeprefix("before_")

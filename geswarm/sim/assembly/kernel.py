@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from geswarm.sim.assembly import acting, deciding, measuring, meeting
+from geswarm.sim.assembly import acting, deciding, measuring, meeting, records
 from geswarm.sim.assembly.loading import load
 from geswarm.sim.assembly.source import Layout, Source
+from geswarm.sim.kernels.single import F, I, U
 from geswarm.sim.terms.component import Component
 from geswarm.sim.terms.parts import Parts
 
@@ -20,6 +21,7 @@ from geswarm.sim.kernels.draws import FIRST_ACTION, OUTCOME, draw_bits
 from geswarm.sim.kernels.jit import kernel
 from geswarm.sim.kernels.motion import {motion}
 from geswarm.sim.kernels.{search}
+from geswarm.sim.kernels.scratch import on_the_stack
 from geswarm.sim.kernels.single import ONE, TWO, ZERO, F, I, U, fma, inverse_root
 from geswarm.sim.kernels.state import LANES
 from geswarm.sim.kernels.table import slot_of
@@ -66,9 +68,15 @@ def source_of(parts: Parts, layout: Layout) -> tuple[str, tuple[str, ...]]:
     head(f'"""Assembled from the components of {parts.name}; not to be edited."""\n')
     head(_imports(parts, layout))
     head(_constants(parts, layout))
+    own = {"work": records.work_fields(parts, layout)}
+    if not layout.swarm:
+        own["mine"] = records.mine_fields(parts, layout)
+    for name, fields in own.items():
+        _record(head, name.upper(), fields)
     head("\n\n@kernel")
     head(f"def run({', '.join(arguments(parts, layout))}):")
     head.depth = 1
+    head("\n".join(f"{name} = on_the_stack({name.upper()})" for name in own))
     for number, name in enumerate(body.numbers):
         head(f"{name} = numbers[{number}]")
     return head.text + body.text, tuple(body.numbers)
@@ -77,7 +85,7 @@ def source_of(parts: Parts, layout: Layout) -> tuple[str, tuple[str, ...]]:
 def arguments(parts: Parts, layout: Layout) -> tuple[str, ...]:
     """What a kernel takes, in this order.
 
-    numbers: float32, the scenario's; robots, objects, work: see `records`; group, classes, rows,
+    numbers: float32, the scenario's; robots, objects: see `records`; group, classes, rows,
     thresholds, outcomes: control tables, see `kernels.table`; rules, accepted, actions, misses,
     decisions: rules to be interpreted and what is counted; kinds, arguments: of each instance of a
     behaviour; grid: see `kernels.pairs`; width: lanes in use; first, steps: control steps.
@@ -85,7 +93,7 @@ def arguments(parts: Parts, layout: Layout) -> tuple[str, ...]:
     table = ("group", "classes", "rows", "thresholds", "outcomes")
     rules = ("rules", "accepted", "actions", "misses", "decisions")
     return (
-        *("numbers", "robots", "objects", "work"),
+        *("numbers", "robots", "objects"),
         *(rules if layout.rules else table),
         *(("kinds", "arguments") if parts.arguments else ()),
         "grid" if layout.swarm else "width",
@@ -116,6 +124,14 @@ def _constants(parts: Parts, layout: Layout) -> str:
     if layout.rules:
         lines += [f"BEHAVIOURS = {parts.most_instances}", f"STATES = {parts.states}"]
     return "\n" + "\n".join(lines)
+
+
+def _record(source: Source, name: str, fields: records.Fields) -> None:
+    """A type of record that the kernel has for itself."""
+    letters: dict[type, str] = {F: "F", I: "I", U: "U"}
+    with source.inside(f"{name} = np.dtype(["):
+        source("\n".join(f'("{field}", {letters[kind]}, LANES),' for field, kind in fields.items()))
+    source("], align=True)")
 
 
 def _steps(source: Source) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geswarm.sim.assembly import ground
+from geswarm.sim.assembly import ground, records
 from geswarm.sim.assembly.source import Source, zero
 from geswarm.sim.kernels.single import I
 from geswarm.sim.terms.component import OF_A_PAIR, Sum
@@ -36,26 +36,37 @@ def sums(source: Source) -> None:
 def _all_pairs(source: Source) -> None:
     with source.lanes():
         source("work.touch[lane] = I(0)")
-    with (
-        source.inside("for i in range(len(robots)):"),
-        source.inside("for j in range(i + 1, len(robots)):"),
-    ):
-        source("robot, other = robots[i], robots[j]")
+    fields = records.mine_fields(source.parts, source.layout)
+    outputs = {output for one in source.parts.needed_sums for output in one.outputs}
+    with source.inside("for i in range(len(robots)):"):
+        source("robot = robots[i]")
         with source.lanes():
-            source("dx = robot.x[lane] - other.x[lane]\ndy = robot.y[lane] - other.y[lane]")
-            source("d2 = fma(dx, dx, dy * dy)")
-            source("work.touch[lane] = I(work.touch[lane] | I(d2 < touch2))")
-            source("work.dx[lane], work.dy[lane], work.d2[lane] = dx, dy, d2")
-            source("work.per_d[lane] = inverse_root(d2)")
-        # Each sum has a loop of its own: with more arrays in one LLVM gives up, and says nothing.
-        counts = [one for one in source.parts.needed_sums if one.form == "count"]
-        others = [[one] for one in source.parts.needed_sums if one.form != "count"]
-        for together in ([counts] if counts else []) + others:
+            for name in fields:
+                source(f"mine.{name}[lane] = robot.{name}[lane]")
+        with source.inside("for j in range(i + 1, len(robots)):"):
+            source("other = robots[j]")
             with source.lanes():
-                for one in together:
-                    _of_the_pair(source, one)
-                    _weights(source, one, ("robot", "other"), ("lane", "lane"))
-                    _add(source, one, ("robot", "other"), ("lane", "lane"))
+                _one_pair(source)
+        if outputs:
+            with source.lanes():
+                for name in fields:
+                    if name in outputs:
+                        source(f"robot.{name}[lane] = mine.{name}[lane]")
+
+
+def _one_pair(source: Source) -> None:
+    """Robot `mine` and one of those after it.
+
+    All sums are in one loop, which is half as much to load and store as a loop for each. LLVM can
+    do that only because it knows that `mine` is nowhere in the robots.
+    """
+    source("dx, dy = mine.x[lane] - other.x[lane], mine.y[lane] - other.y[lane]")
+    source("d2 = fma(dx, dx, dy * dy)")
+    source("work.touch[lane] = I(work.touch[lane] | I(d2 < touch2))")
+    source("per_d = inverse_root(d2)")
+    for one in source.parts.needed_sums:
+        _weights(source, one, ("mine", "other"), ("lane", "lane"))
+        _add(source, one, ("mine", "other"), ("lane", "lane"))
 
 
 def _listed_pairs(source: Source) -> None:
@@ -160,5 +171,4 @@ def collide(source: Source) -> None:
             _push_apart_in_lanes(source)
     with source.inside("for i in range(len(robots)):"):
         source("robot = robots[i]")
-        with source.lanes():
-            ground.keep_inside(source)
+        ground.keep_inside(source)

@@ -15,6 +15,11 @@ from geswarm.sim.terms.parts import Parts
 
 Records: TypeAlias = npt.NDArray[np.void]
 Record: TypeAlias = Any
+Fields: TypeAlias = dict[str, type]
+"""Kinds of numbers by name, LANES of each."""
+
+_LINE = 64
+"""Bytes of a line of the cache."""
 
 RULE = np.dtype(
     [
@@ -51,7 +56,11 @@ CHANCE = np.dtype([("threshold", np.uint32), ("possible", np.int32)])
 
 def robot_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
     """A block of robots: robot i of 64 simulations, or robots 64 i to 64 i + 63 of a swarm."""
-    fields: dict[str, type] = {}
+    return _in_lanes(_robot_fields(parts, layout))
+
+
+def _robot_fields(parts: Parts, layout: Layout) -> Fields:
+    fields: Fields = {}
     if layout.rules:
         fields |= {"percepts": I, "last_rule": I}
     if layout.wide:
@@ -61,32 +70,52 @@ def robot_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
         # Whether there is such a robot; its cell; where it was when pairs were listed.
         fields |= {"exists": I, "cell": I, "listed_x": F, "listed_y": F}
     # These come last: numba takes a record that begins like another one for a kind of it.
-    fields |= {
+    return fields | {
         **dict.fromkeys(("x", "y", "cos", "sin"), F),
         **dict.fromkeys(("behaviour", "state"), I),
         **dict.fromkeys(("key_low", "key_high"), U),
         **parts.own_fields,
     }
-    return _in_lanes(fields)
 
 
-def work_type(parts: Parts, layout: Layout) -> np.dtype[np.void]:
+def room(count: int, dtype: np.dtype[np.void]) -> Records:
+    """Records of zeros, each field of which begins a line of the cache.
+
+    numpy's own arrays begin anywhere, and a vector that lies in two lines takes twice as long.
+    """
+    size = count * dtype.itemsize
+    whole = np.zeros(size + _LINE, dtype=np.uint8)
+    begin = -whole.ctypes.data % _LINE
+    return whole[begin : begin + size].view(dtype)
+
+
+def work_fields(parts: Parts, layout: Layout) -> Fields:
     """What is kept between the loops of a step, for one block or one pair of blocks."""
-    fields: dict[str, type] = {
-        **dict.fromkeys(("dx", "dy", "d2", "per_d"), F),
+    fields: Fields = {
+        "d2": F,
         **dict.fromkeys(("place", "row", "word", "bits"), U),
         **dict.fromkeys(("restarts", "happens"), I),
         **dict.fromkeys(("kind", "object_near"), I),
         **{f"argument{number}": F for number in range(parts.arguments)},
     }
+    fields |= dict.fromkeys(ground.kept(parts), F)
     if layout.swarm:
-        fields["weight"] = F
+        fields |= dict.fromkeys(("dx", "dy", "per_d", "weight"), F)
     else:
         fields |= {"nearest": F, "touch": I, **parts.swarm_sums}
     if layout.rules:
         fields |= dict.fromkeys(("active", "fired", "memory"), I)
         fields |= {f"{sensor.name}_now": I for sensor in parts.sensors}
-    return _in_lanes(fields)
+    return fields
+
+
+def mine_fields(parts: Parts, layout: Layout) -> Fields:
+    """What a robot needs at hand while it is compared with the others: its sums and their needs."""
+    named = {"x", "y"}
+    for one in parts.needed_sums:
+        named |= {"state" if name in parts.shifts else name for name in one.needs}
+        named |= set(one.outputs)
+    return {name: kind for name, kind in _robot_fields(parts, layout).items() if name in named}
 
 
 OBJECT = np.dtype([("x", F, LANES), ("y", F, LANES)])
@@ -96,5 +125,5 @@ GROUP = np.dtype([("codes", U, LANES), ("rows", U, LANES), ("instances", U, LANE
 """Where the control table of each lane begins in the arrays of all."""
 
 
-def _in_lanes(fields: dict[str, type]) -> np.dtype[np.void]:
+def _in_lanes(fields: Fields) -> np.dtype[np.void]:
     return np.dtype([(name, kind, LANES) for name, kind in fields.items()], align=True)

@@ -58,7 +58,6 @@ common = (
     np.zeros(len(kernel.numbers), dtype=np.float32),
     np.zeros(1, dtype=records.robot_type(PARTS, layout)),
     np.zeros((1, 2), dtype=np.float32) if layout.swarm else np.zeros(1, dtype=records.OBJECT),
-    np.zeros(1, dtype=records.work_type(PARTS, layout))[0],
 )
 if layout.swarm:
     rules = (np.zeros(0, dtype=records.RULE), np.zeros((0, len(PARTS.sensors)), dtype=np.uint64))

@@ -9,7 +9,7 @@ import pytest
 
 from geswarm.sim.assembly import loading
 from geswarm.sim.assembly.kernel import assemble, source_of
-from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type, work_type
+from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.controllers.encoding import numbers_by_name
 from geswarm.sim.library.vocabulary import parts_of
@@ -52,7 +52,6 @@ def run_gathering(steps):
         numbers_by_name(scenario, kernel.numbers, gathering.GATHERING),
         robots,
         np.zeros(0, dtype=OBJECT),
-        np.zeros(1, dtype=work_type(gathering.GATHERING, layout))[0],
         table,
         np.zeros(8, dtype=np.uint16),
         np.zeros(16, dtype=np.uint32),
