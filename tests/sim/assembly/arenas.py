@@ -12,7 +12,7 @@ from geswarm.sim.arena.model import Arena, Band, Box, Disc, Light, Patch, Polygo
 from geswarm.sim.arena.numbers import ground_numbers, object_numbers
 from geswarm.sim.arena.start_places import places_of, spots_of
 from geswarm.sim.assembly.kernel import assemble
-from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type, work_type
+from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.compiled import start_all
 from geswarm.sim.controllers.encoding import fill_robots, grid_for, scenario_numbers
@@ -125,7 +125,6 @@ class Run:
         )
         blocks = -(-self.robots // LANES) if self.layout.swarm else self.robots
         self.blocks = np.zeros(blocks, dtype=robot_type(self.parts, self.layout))
-        self.work = np.zeros(1, dtype=work_type(self.parts, self.layout))[0]
         if self.layout.swarm:
             lanes = np.zeros(blocks * LANES, dtype=ROBOT)
             lanes["cos"] = 1.0
@@ -149,7 +148,7 @@ class Run:
         outcomes = np.full(2, 2 << 1 | 2 << 14, dtype=np.uint32)
         rows = np.zeros(16, dtype=np.uint32)
         done = self.kernel.run(
-            self.numbers, self.blocks, self.objects, self.work, table,
+            self.numbers, self.blocks, self.objects, table,
             np.zeros(16, dtype=np.uint16), rows, np.zeros(1, dtype=np.uint32), outcomes,
             self.last, first, steps,
         )  # fmt: skip
