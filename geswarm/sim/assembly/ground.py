@@ -248,7 +248,7 @@ def keep_inside(source: Source) -> None:
     """After the robots of a block have moved: push them off the walls, or back where they were.
 
     Unless one clamp does it, it is seen first whether some robot is near any wall: that is less
-    than half of the work, and in most blocks all.
+    than half of the work, and often all.
     """
     if source.parts.ground.is_plain:
         with source.lanes():
