@@ -11,6 +11,7 @@ from geswarm.sim.assembly import ground
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.kernels.single import F, I, U
 from geswarm.sim.kernels.state import LANES
+from geswarm.sim.terms.component import OTHER
 from geswarm.sim.terms.parts import Parts
 
 Records: TypeAlias = npt.NDArray[np.void]
@@ -113,7 +114,8 @@ def mine_fields(parts: Parts, layout: Layout) -> Fields:
     """What a robot needs at hand while it is compared with the others: its sums and their needs."""
     named = {"x", "y"}
     for one in parts.needed_sums:
-        named |= {"state" if name in parts.shifts else name for name in one.needs}
+        needs = {name.removeprefix(OTHER) for name in one.needs}  # it is the other one's other
+        named |= {"state" if name in parts.shifts else name for name in needs}
         named |= set(one.outputs)
     return {name: kind for name, kind in _robot_fields(parts, layout).items() if name in named}
 
