@@ -9,6 +9,7 @@ import numba
 from numba.core import codegen
 
 from geswarm.sim.kernels.cache import KernelCache
+from geswarm.sim.kernels.linking import KernelCompiler, PartCompiler
 
 _config: Any = numba.config
 _codegen: Any = codegen
@@ -42,19 +43,23 @@ _prefer_wide_vectors()
 
 _OPTIONS: Any = {"error_model": "numpy", "_nrt": False}
 
-_ALONE: Any = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-inlined: Any = numba.njit(forceinline=True, **_ALONE, **_OPTIONS)
+_PART: Any = {
+    "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "pipeline_class": PartCompiler, **_OPTIONS
+}  # fmt: skip
+_WHOLE: Any = {"nogil": True, "pipeline_class": KernelCompiler, **_OPTIONS}
+
+inlined: Any = numba.njit(forceinline=True, **_PART)
 """For functions that kernels call."""
 
-called: Any = numba.njit(**_ALONE, **_OPTIONS)
+called: Any = numba.njit(**_PART)
 """The same for long ones that are called in many places, where speed is not all."""
 
-kernel_in_memory: Any = numba.njit(nogil=True, **_OPTIONS)
+kernel_in_memory: Any = numba.njit(**_WHOLE)
 """For functions that Python calls, where nothing can be kept."""
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """For functions that Python calls: kept on disk, run without the interpreter's lock."""
-    dispatcher: Any = numba.njit(nogil=True, **_OPTIONS)(function)
+    dispatcher: Any = numba.njit(**_WHOLE)(function)
     dispatcher._cache = KernelCache(function)  # as numba's `cache=True` does with its own
     return dispatcher

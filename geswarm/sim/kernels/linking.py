@@ -1,0 +1,71 @@
+"""Kernels are optimised once, as a whole: functions that only kernels call are not, on their own.
+
+Numba makes machine code of each function that it compiles, with all that the function calls, for it
+may be called from anywhere. Of functions that only kernels call nobody asks for that code, but it
+takes half of the compiler's time.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba.core import codegen, compiler
+
+_Library: Any = codegen.JITCodeLibrary
+_Compiler: Any = compiler.Compiler
+
+
+class _Part(_Library):  # type: ignore[misc]
+    """The code of a function that only kernels call: as it was generated, to be linked."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        self._final_module.link_in(ll_module)
+
+    def finalize(self) -> None:
+        self._finalized = True
+
+    def get_pointer_to_function(self, _name: str) -> int:
+        """None: it is no machine code."""
+        return 0
+
+    @property
+    def codegen(self) -> Any:
+        return self
+
+    def set_env(self, _name: str, _env: object) -> None:
+        """What numba keeps for exceptions; kernels raise none."""
+
+    @property
+    def parts(self) -> tuple[Any, ...]:
+        """What the function calls."""
+        return tuple(self._linking_libraries)
+
+
+class _Whole(_Library):  # type: ignore[misc]
+    """The code of a kernel, with all that it calls."""
+
+    def add_linking_library(self, library: Any) -> None:
+        """Link a function's code and, as it does not hold it, that of all that it calls."""
+        if library not in self._linking_libraries:
+            super().add_linking_library(library)
+            for each in library.parts if isinstance(library, _Part) else ():
+                self.add_linking_library(each)
+
+
+class PartCompiler(_Compiler):  # type: ignore[misc]
+    """Numba's compiler for functions that only kernels call."""
+
+    library_class: Any = _Part
+
+    def define_pipelines(self) -> Any:
+        """Numba's own passes, with another place for the code."""
+        state = self.state
+        state.library = self.library_class(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return super().define_pipelines()
+
+
+class KernelCompiler(PartCompiler):
+    """Numba's compiler for kernels."""
+
+    library_class = _Whole
