@@ -204,7 +204,7 @@ def run_dashboard(options: argparse.Namespace) -> int:
         rule_set = load_rule_set(given, known) if given else first_rules(scenario)
     except (ScenarioError, RuleSetError) as error:
         raise UsageError(str(error)) from error
-    compile_first("geswarm-ui: stopped", scenario)
+    compile_first("geswarm-ui: stopped", scenario, interactive=True)
     port = 8080 if options.port is None else options.port
     try:
         dashboard = open_dashboard(

@@ -60,7 +60,7 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
         `mapping_genomes_per_second` (genomes of 200 codons, one thread).
     """
     report = progress or (lambda _: None)
-    warm_up(report)
+    warm_up(report, interactive=True)
     report("control steps, side by side and in the interactive world")
     side_by_side, scalar = _robot_steps()
     report("runs of the paper, on one core and on all")

@@ -47,7 +47,7 @@ def stop_on_signals() -> Iterator[threading.Event]:
         yield stop
 
 
-def compile_first(last_words: str, *scenarios: Scenario) -> None:
+def compile_first(last_words: str, *scenarios: Scenario, interactive: bool = False) -> None:
     """Compile the simulator unless that has been done; Ctrl-C and SIGTERM end the program there.
 
     They end it without ado, as the compiler loses or prints exceptions.
@@ -55,6 +55,7 @@ def compile_first(last_words: str, *scenarios: Scenario) -> None:
     Args:
         last_words: Written to stderr then.
         *scenarios: For which; none means `paper`.
+        interactive: Whether a `World` is going to be run, too.
     """
     from geswarm.sim import is_compiled, warm_up
 
@@ -64,9 +65,9 @@ def compile_first(last_words: str, *scenarios: Scenario) -> None:
         os._exit(STOPPED_STATUS)
 
     for scenario in scenarios or (None,):
-        if not is_compiled(scenario):
+        if not is_compiled(scenario, interactive=interactive):
             with _on_signals(end):
-                warm_up(scenario=scenario)
+                warm_up(scenario=scenario, interactive=interactive)
 
 
 @contextmanager

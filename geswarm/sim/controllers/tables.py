@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
@@ -17,17 +18,19 @@ from geswarm.sim.compiled import compile_tables
 from geswarm.sim.controllers.program import Instances, encode, encoded
 from geswarm.sim.controllers.spaces import percepts_of_codes
 from geswarm.sim.kernels.table import (
+    MOST_CLASSES,
     MOST_OUTCOMES,
     MOST_RULES,
+    ROOM,
     ROW_BEHAVIOURS,
     Encoded,
-    Room,
     Tables,
 )
 from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
 
 Controller: TypeAlias = RuleSet | ControlTable
-_MOST_CLASSES = 1024
+
+_of_thread = threading.local()
 
 
 class Controllers(NamedTuple):
@@ -90,6 +93,17 @@ def compile_controllers(
             [np.zeros((0, parts.arguments), np.float32), *(own.arguments for own in instances)]
         ),
         first_instances=np.cumsum([0, *sizes])[:-1],
+        parts=parts,
+    )
+
+
+def no_controllers(parts: Parts) -> Controllers:
+    """What stands for one table where no step is going to be run."""
+    return Controllers(
+        _empty(1, parts.codes),
+        kinds=np.zeros(1, dtype=np.int32),
+        arguments=np.zeros((1, parts.arguments), np.float32),
+        first_instances=np.zeros(1, dtype=np.int64),
         parts=parts,
     )
 
@@ -166,15 +180,9 @@ def _situations(space: Space, parts: Parts) -> npt.NDArray[np.int64]:
 
 def _compiled(encoded: Encoded, dense: npt.NDArray[np.float64], parts: Parts) -> Tables:
     """Run the kernel, with more room until all tables are there."""
-    number, codes = len(encoded.rule_ends), parts.codes
-    tables = Tables(
-        classes=np.empty(number * codes, dtype=np.uint16),
-        rows=np.empty(number * min(codes, 64) * ROW_BEHAVIOURS, dtype=np.uint32),
-        thresholds=np.empty(number * 256, dtype=np.uint32),
-        outcomes=np.empty(number * 512, dtype=np.uint32),
-        begins=np.zeros((number + 1, 3), dtype=np.int64),
-    )
-    room = _room(parts)
+    number = len(encoded.rule_ends)
+    tables = _empty(number, parts.codes)
+    room = _room()
     done = compile_tables(encoded, dense, room, tables, 0)
     while 0 <= done < number:
         tables = tables._replace(
@@ -188,25 +196,25 @@ def _compiled(encoded: Encoded, dense: npt.NDArray[np.float64], parts: Parts) ->
     if done < 0:
         raise ValueError(
             f"rule set {-1 - done}: its control table is too large: expected at most {MOST_RULES} "
-            f"rules, {_MOST_CLASSES} classes of situations and {MOST_OUTCOMES} outcomes of one"
+            f"rules, {MOST_CLASSES} classes of situations and {MOST_OUTCOMES} outcomes of one"
         )
     return tables
 
 
-def _room(parts: Parts) -> Room:
-    codes, readings = parts.codes, len(parts.sensors)
-    classes = min(codes, _MOST_CLASSES)
-    rows = classes * ROW_BEHAVIOURS
-    return Room(
-        class_key=np.zeros((readings, 64), dtype=np.uint64),
-        signatures=np.empty((3, max(codes, classes)), dtype=np.uint64),
-        halves=np.empty((2, codes), dtype=np.uint16),
-        pair_class=np.empty((classes, classes), dtype=np.int32),
-        class_of_code=np.empty((2, codes), dtype=np.int32),
-        start=np.empty((2, classes), dtype=np.int64),
-        keys=np.empty((2, rows, MOST_OUTCOMES), dtype=np.int64),
-        shares=np.empty((2, rows, MOST_OUTCOMES)),
-        lengths=np.zeros((2, rows), dtype=np.int64),
-        few_keys=np.empty((2, 2 * MOST_OUTCOMES), dtype=np.int64),
-        few_shares=np.empty((3, 2 * MOST_OUTCOMES)),
+def _empty(number: int, codes: int) -> Tables:
+    """Room for so many tables, if they are not larger than most."""
+    return Tables(
+        classes=np.empty(number * codes, dtype=np.uint16),
+        rows=np.empty(number * min(codes, 64) * ROW_BEHAVIOURS, dtype=np.uint32),
+        thresholds=np.empty(number * 256, dtype=np.uint32),
+        outcomes=np.empty(number * 512, dtype=np.uint32),
+        begins=np.zeros((number + 1, 3), dtype=np.int64),
     )
+
+
+def _room() -> np.void:
+    """Working space of this thread, kept: to ask for it takes longer than to make some tables."""
+    if not hasattr(_of_thread, "room"):
+        _of_thread.room = np.zeros(1, dtype=ROOM)[0]
+    room: np.void = _of_thread.room
+    return room

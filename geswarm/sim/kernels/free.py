@@ -24,11 +24,11 @@ def is_free(places: Places, x: float, y: float) -> bool:
 
 @inlined
 def is_inside(corners: Any, x: float, y: float) -> bool:
-    """Whether a place is inside a polygon; shape (corners, 2)."""
+    """Whether a place is inside a polygon; shape (corners, 2 or more)."""
     inside = False
-    before_x, before_y = corners[-1]
+    before_x, before_y = corners[-1, 0], corners[-1, 1]
     for k in range(len(corners)):
-        to_x, to_y = corners[k]
+        to_x, to_y = corners[k, 0], corners[k, 1]
         if (before_y > y) != (to_y > y):
             crossing = before_x + (to_x - before_x) * (y - before_y) / (to_y - before_y)
             inside = inside != (x < crossing)
@@ -48,10 +48,10 @@ def gap_around(places: Places, x: float, y: float) -> float:
     if len(places.walls):
         for k in range(len(places.walls)):
             gap = min(gap, _to_wall(places.walls[k], x, y))
-        gap = gap if is_inside(places.walls[:, :2], x, y) else -gap
+        gap = gap if is_inside(places.walls, x, y) else -gap
     for k in range(len(places.discs)):
-        at_x, at_y, radius = places.discs[k]
-        gap = min(gap, math.hypot(x - at_x, y - at_y) - radius)
+        disc = places.discs[k]
+        gap = min(gap, math.hypot(x - disc[0], y - disc[1]) - disc[2])
     for k in range(len(places.boxes)):
         gap = min(gap, _to_box(places.boxes[k], x, y))
     return gap

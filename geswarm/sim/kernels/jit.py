@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numba
-from numba.core import codegen
+from numba.core import codegen, types
 
 from geswarm.sim.kernels.cache import KernelCache
 from geswarm.sim.kernels.linking import KernelCompiler, PartCompiler
@@ -48,11 +48,27 @@ _PART: Any = {
 }  # fmt: skip
 _WHOLE: Any = {"nogil": True, "pipeline_class": KernelCompiler, **_OPTIONS}
 
-inlined: Any = numba.njit(forceinline=True, **_PART)
-"""For functions that kernels call."""
 
-called: Any = numba.njit(**_PART)
-"""The same for long ones that are called in many places, where speed is not all."""
+def _general(dispatcher: Any) -> Any:
+    """Of a function that is called with constants too: compiled once, not for each of them."""
+    template = dispatcher.get_call_template
+
+    def get_call_template(args: Any, kws: Any) -> Any:
+        return template(tuple(types.unliteral(each) for each in args), kws)
+
+    dispatcher.get_call_template = get_call_template
+    return dispatcher
+
+
+def inlined(function: Callable[..., Any] | None) -> Any:
+    """For functions that kernels call."""
+    return _general(numba.njit(forceinline=True, **_PART)(function))
+
+
+def called(function: Callable[..., Any]) -> Any:
+    """The same for long ones that are called in many places, where speed is not all."""
+    return _general(numba.njit(**_PART)(function))
+
 
 kernel_in_memory: Any = numba.njit(**_WHOLE)
 """For functions that Python calls, where nothing can be kept."""

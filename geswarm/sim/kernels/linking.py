@@ -7,9 +7,10 @@ takes half of the compiler's time.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
-from numba.core import codegen, compiler
+from numba.core import codegen, compiler, types
 
 _Library: Any = codegen.JITCodeLibrary
 _Compiler: Any = compiler.Compiler
@@ -52,14 +53,41 @@ class _Whole(_Library):  # type: ignore[misc]
                 self.add_linking_library(each)
 
 
+class _Typing:
+    """Numba's context of types, which remembers what an operation makes of operands.
+
+    Numba tries all that the operation might mean each time it meets it, several times in a line.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self._context = context
+        self._known: dict[Any, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._context, name)
+
+    def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:
+        """The signature of a function for arguments of some types."""
+        if isinstance(func, types.Type) and not isinstance(func, types.BaseFunction):
+            return self._context.resolve_function_type(func, args, kws)
+        call = func, tuple(args), tuple(kws.items())
+        if call not in self._known:
+            self._known[call] = self._context.resolve_function_type(func, args, kws)
+        return self._known[call]
+
+
+_remembering = cache(_Typing)
+
+
 class PartCompiler(_Compiler):  # type: ignore[misc]
     """Numba's compiler for functions that only kernels call."""
 
     library_class: Any = _Part
 
     def define_pipelines(self) -> Any:
-        """Numba's own passes, with another place for the code."""
+        """Numba's own passes, with another place for the code, and a memory."""
         state = self.state
+        state.typingctx = _remembering(state.typingctx)
         state.library = self.library_class(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return super().define_pipelines()

@@ -141,16 +141,16 @@ def _begin(beginning: Beginning, robot: Any) -> None:
 @inlined
 def _place_object(places: Places, objects: Any, o: int, u: float, v: float) -> None:
     """Put object o into the source; u and v uniform in [0, 1)."""
-    if places.object_form == IN_BOX:
-        at_x, half_width, south, depth = places.objects[:4]
-        objects[o, 0] = at_x + half_width * (2.0 * u - 1.0)
-        objects[o, 1] = south + depth * v
-    elif places.object_form == IN_TURNED:
-        at_x, at_y, half_width, half_length, cos, sin = places.objects
-        across, along = half_width * (2.0 * u - 1.0), half_length * (2.0 * v - 1.0)
-        objects[o, 0] = at_x + across * cos - along * sin
-        objects[o, 1] = at_y + along * cos + across * sin
-    else:
-        d, angle = places.objects[2] * math.sqrt(u), 2.0 * math.pi * v
-        objects[o, 0] = places.objects[0] + d * math.cos(angle)
-        objects[o, 1] = places.objects[1] + d * math.sin(angle)
+    place = places.objects
+    if places.object_form == IN_BOX:  # place: x, half width, south, depth
+        objects[o, 0] = place[0] + place[1] * (2.0 * u - 1.0)
+        objects[o, 1] = place[2] + place[3] * v
+    elif places.object_form == IN_TURNED:  # x, y, half width, half length, cos, sin
+        cos, sin = place[4], place[5]
+        across, along = place[2] * (2.0 * u - 1.0), place[3] * (2.0 * v - 1.0)
+        objects[o, 0] = place[0] + across * cos - along * sin
+        objects[o, 1] = place[1] + along * cos + across * sin
+    else:  # x, y, radius
+        d, angle = place[2] * math.sqrt(u), 2.0 * math.pi * v
+        objects[o, 0] = place[0] + d * math.cos(angle)
+        objects[o, 1] = place[1] + d * math.sin(angle)

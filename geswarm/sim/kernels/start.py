@@ -43,10 +43,10 @@ def build_start_all(version: int) -> Any:
             placed: bool, shape (simulations,): whether all robots have a place.
         """
         for number in range(len(simulations)):
-            _, seed, individual, replicate = simulations[number]
-            swarm, items, key = swarms[number], objects[number], (seed, individual, replicate)
+            keys = simulations[number]
+            swarm, items = swarms[number], objects[number]
             placed[number] = start(
-                places, beginning, swarm, slots, starts, order, items, key[0], key[1], key[2]
+                places, beginning, swarm, slots, starts, order, items, keys[1], keys[2], keys[3]
             )
         return version
 
@@ -67,7 +67,7 @@ def build_look_around(version: int) -> Any:
             gaps: float64, shape (points,): see `free.gap_around`.
         """
         for number in range(len(points)):
-            x, y = points[number]
+            x, y = points[number, 0], points[number, 1]
             free[number] = is_free(places, x, y)
             gaps[number] = gap_around(places, x, y)
         return version

@@ -36,6 +36,9 @@ MOST_OUTCOMES = 128
 """Of one row."""
 MOST_RULES = 64
 """Of a rule set, with one for each bit of a register that it changes and that is read."""
+MOST_CLASSES = 1024
+_MOST_READINGS, _MOST_CODES = 16, 65_536
+_MOST_ROWS = MOST_CLASSES * ROW_BEHAVIOURS
 THRESHOLD_BITS = 22
 """Of a slot's 32: as fine as it was when results were published that must come out again."""
 IDENTITY = (8 << 22) | (7 << 29)
@@ -96,34 +99,27 @@ class Tables(NamedTuple):
     begins: Any
 
 
-class Room(NamedTuple):
-    """Working space for one rule set.
+ROOM = np.dtype(
+    [
+        ("class_key", np.uint64, (_MOST_READINGS, 64)),  # which rules a value of a reading lets by
+        ("signatures", np.uint64, (3, _MOST_CODES)),
+        ("halves", np.uint16, (2, _MOST_CODES)),
+        ("pair_class", np.int32, (MOST_CLASSES, MOST_CLASSES)),
+        ("class_of_code", np.int32, (2, _MOST_CODES)),
+        ("start", np.int64, (2, MOST_CLASSES)),  # known values of the registers' bits in each class
+        ("keys", np.int64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # outcomes of each row, sorted
+        ("shares", np.float64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # how probable each is
+        ("lengths", np.int64, (2, _MOST_ROWS)),  # how many they are
+        ("few_keys", np.int64, (2, 2 * MOST_OUTCOMES)),
+        ("few_shares", np.float64, (3, 2 * MOST_OUTCOMES)),
+    ],
+    align=True,
+)
+"""Working space for one rule set, as large as it may ever have to be.
 
-    Attributes:
-        class_key: uint64, shape (readings, 64), which rules a value of a reading lets through.
-        signatures: uint64, shape (3, codes).
-        halves: uint16, shape (2, codes).
-        pair_class: int32, shape (codes, codes) or as many as there may be.
-        class_of_code: int32, shape (2, codes).
-        start: int64, shape (2, classes): known values of the registers' bits in each class.
-        keys: int64, shape (2, rows, MOST_OUTCOMES), outcomes of each class and behaviour, sorted.
-        shares: float64, likewise, how probable.
-        lengths: int64, shape (2, rows), how many.
-        few_keys: int64, shape (2, 2 * MOST_OUTCOMES).
-        few_shares: float64, shape (3, 2 * MOST_OUTCOMES).
-    """
-
-    class_key: Any
-    signatures: Any
-    halves: Any
-    pair_class: Any
-    class_of_code: Any
-    start: Any
-    keys: Any
-    shares: Any
-    lengths: Any
-    few_keys: Any
-    few_shares: Any
+A record, whose place is one number: a tuple of arrays is a hundred of them, which the compiler
+would follow into each function. What is not used of it takes no memory.
+"""
 
 
 @inlined

@@ -300,7 +300,7 @@ def build_compile_tables(version: int) -> Any:
             encoded: Of Encoded.
             dense: float64, shape (rule sets, codes, behaviours, outcomes): what rule sets come to,
                 see `_unfold`; or no rule sets: it is worked out.
-            room: Of Room.
+            room: Of ROOM.
             tables: Of Tables, with what has been made so far.
             first: Which rule set to begin with.
 
