@@ -6,10 +6,11 @@ from numba import njit
 from scipy import stats
 
 from geswarm.sim.kernels import draws
+from geswarm.sim.kernels.linking import KernelCompiler
 from tests.sim import oracle
 
 
-@njit
+@njit(pipeline_class=KernelCompiler)
 def grid(seed, robots, steps, purposes):
     numbers = np.empty((robots, steps, purposes))
     for robot in range(robots):
@@ -20,7 +21,7 @@ def grid(seed, robots, steps, purposes):
     return numbers
 
 
-@njit
+@njit(pipeline_class=KernelCompiler)
 def keys_of(seeds, individuals, replicates, robots):
     keys = np.empty((seeds, individuals, replicates, robots), dtype=np.uint64)
     for index in np.ndindex(keys.shape):

@@ -9,6 +9,7 @@ from numba import njit
 from geswarm.rules import FORAGING, RuleSet, load_preset
 from geswarm.sim import batch
 from geswarm.sim.kernels import single
+from geswarm.sim.kernels.linking import KernelCompiler
 from geswarm.sim.scenario.model import load_scenario
 from tests.sim import oracle
 from tests.sim.controllers import controllers_for
@@ -81,7 +82,7 @@ def test_a_target_of_length_zero_is_straight_ahead():
     assert robot["y"][0, 0] == pytest.approx(0.008)
 
 
-@njit
+@njit(pipeline_class=KernelCompiler)
 def evaluated(x, bits):
     cos, sin = np.cos(x.astype(np.float64)), np.sin(x.astype(np.float64))
     results = np.empty((len(x), 9))
