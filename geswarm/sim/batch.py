@@ -20,8 +20,9 @@ from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import OBJECT, Records, robot_type, room
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.controllers.encoding import fails, fill_robots, is_wide, numbers_by_name, start_of
+from geswarm.sim.controllers.encoding import fails, fill_robots, is_wide, numbers_by_name
 from geswarm.sim.controllers.program import Instances
+from geswarm.sim.controllers.starting import start_of
 from geswarm.sim.controllers.tables import Controller, Controllers, compile_controllers
 from geswarm.sim.cores import available_cores
 from geswarm.sim.kernels.state import LANES

@@ -15,8 +15,8 @@ from geswarm.sim.controllers.encoding import (
     grid_for,
     is_wide,
     numbers_by_name,
-    start_of,
 )
+from geswarm.sim.controllers.starting import start_of
 from geswarm.sim.kernels.state import LANES
 from geswarm.sim.library.vocabulary import parts_of
 from geswarm.sim.scenario.model import Scenario

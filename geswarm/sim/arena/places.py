@@ -11,7 +11,7 @@ from geswarm.sim import footbot
 from geswarm.sim.arena.geometry import Extent, distances, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Point
 from geswarm.sim.arena.source_place import where_objects_lie
-from geswarm.sim.arena.start_places import places_of, seen_around
+from geswarm.sim.arena.start_places import free_of, places_of
 from geswarm.sim.scenario.checks import objects_from_walls
 from geswarm.sim.scenario.model import Scenario
 
@@ -32,7 +32,7 @@ def nearest_free(arena: Arena, wanted: Point, now: Point) -> Point:
     if isinstance(arena.outline, Box) and not arena.obstacles:
         return inside
     points = np.linspace(inside, now, _STOPS)
-    free, _ = seen_around(places_of(replace(arena, start=None), footbot.RADIUS), points)
+    free = free_of(places_of(replace(arena, start=None), footbot.RADIUS), points)
     x, y = points[free.argmax()] if free.any() else now
     return float(x), float(y)
 

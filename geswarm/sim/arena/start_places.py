@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -10,9 +11,9 @@ import numpy.typing as npt
 
 from geswarm.sim.arena.geometry import Extent, around_origin, corners, extent_of, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Polygon
-from geswarm.sim.arena.numbers import walls
 from geswarm.sim.arena.source_place import box_numbers, where_objects_lie
 from geswarm.sim.compiled import look_around
+from geswarm.sim.kernels.free import BOX, CLOSED, DISC, ROUND, START_DISC, START_SIDE, WALL
 from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TURNED, NO_PLACE, Places
 from geswarm.sim.terms.ground import GroundError
 
@@ -40,7 +41,7 @@ def room_for(arena: Arena, radius: float) -> int:
 
 @lru_cache(maxsize=64)
 def places_of(arena: Arena, radius: float, margin: float | None = None) -> Places:
-    """Where robots start and objects lie, for the kernels; without spots.
+    """Where robots start and objects lie.
 
     Args:
         arena: The arena.
@@ -55,12 +56,11 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
     extent = reach if region is None else extent_of(region).intersection(reach)
     box = box_numbers(extent)
     turned = isinstance(region, Box) and bool(region.angle % 180.0)
-    border: Array = np.zeros((0, 2))
-    if region is not None and (turned or isinstance(region, Polygon)):
-        border = corners(region)
-    disc = (region.x, region.y, region.radius) if isinstance(region, Disc) else (0.0, 0.0, -1.0)
-    is_bare = isinstance(arena.outline, Box) and not arena.obstacles
-    in_cells = is_bare and not isinstance(region, Disc) and not len(border)
+    shapes = [*_outline(arena), *(_obstacle(each) for each in arena.obstacles)]
+    if isinstance(region, Disc):
+        shapes.append((START_DISC, region.x, region.y, region.radius))
+    elif region is not None and (turned or isinstance(region, Polygon)):
+        shapes += _closed(START_SIDE, corners(region).tolist())
     form, objects = _objects(arena, margin)
     return Places(
         half_width=arena.half_width,
@@ -70,16 +70,10 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
         start_half=box["half_width"],
         start_south=box["south"],
         start_depth=box["depth"],
-        start_disc=disc,
-        start_corners=border,
-        columns=_columns(arena, extent, radius) if in_cells else 0,
-        round=arena.outline.radius if isinstance(arena.outline, Disc) else -1.0,
-        walls=_walls(arena),
-        discs=_rows(3, [(d.x, d.y, d.radius) for d in arena.obstacles if isinstance(d, Disc)]),
-        boxes=_rows(6, [_box(each) for each in arena.obstacles if isinstance(each, Box)]),
+        columns=0 if shapes else _columns(arena, extent, radius),
+        shapes=_rows(7, shapes),
         object_form=form,
         objects=objects,
-        spots=np.zeros((0, 2)),
     )
 
 
@@ -96,17 +90,31 @@ def _columns(arena: Arena, extent: Extent, radius: float) -> int:
     return 1 + max(0, math.floor(width / diameter))
 
 
-def _walls(arena: Arena) -> Array:
-    if not isinstance(arena.outline, Polygon):
-        return np.zeros((0, 4))
-    sides = list(walls(arena.outline))
-    ends = [*sides[1:], sides[0]]
-    pairs = zip(sides, ends, strict=True)
-    return np.array([(one.x, one.y, other.x, other.y) for one, other in pairs])
+def _outline(arena: Arena) -> list[tuple[float, ...]]:
+    """An outline that is no box, as `kernels.free.is_free` takes it."""
+    if isinstance(arena.outline, Disc):
+        return [(ROUND, 0.0, 0.0, arena.outline.radius)]
+    if isinstance(arena.outline, Polygon):
+        return _closed(WALL, arena.outline.points)
+    return []
+
+
+def _closed(kind: int, points: Iterable[Sequence[float]]) -> list[tuple[float, ...]]:
+    """The sides of a polygon."""
+    points = list(points)
+    ends = [*points[1:], points[0]]
+    sides = [(kind, *one, *other) for one, other in zip(points, ends, strict=True)]
+    return [*sides, (CLOSED,)]
+
+
+def _obstacle(each: Disc | Box) -> tuple[float, ...]:
+    return (DISC, each.x, each.y, each.radius) if isinstance(each, Disc) else (BOX, *_box(each))
 
 
 def _rows(width: int, rows: list[tuple[float, ...]]) -> Array:
-    return np.array(rows, dtype=np.float64).reshape(-1, width)
+    """Rows filled up with zeros."""
+    filled = [(*row, *[0.0] * (width - len(row))) for row in rows]
+    return np.array(filled, dtype=np.float64).reshape(-1, width)
 
 
 def _box(box: Box) -> tuple[float, ...]:
@@ -150,7 +158,7 @@ def _rows_of_spots(places: Places, share: float) -> Array:
     columns = np.linspace(-1.0, 1.0, 2 + math.floor(width / least))
     x, y = np.meshgrid(places.start_x + places.start_half * columns, places.start_south + rows)
     points = np.column_stack((x.ravel(), y.ravel()))
-    free, _ = seen_around(places, points)
+    free = free_of(places, points)
     spots: list[tuple[float, float]] = []
     for row_x, row_y, row_free in zip(x, y, free.reshape(x.shape), strict=True):
         last = -math.inf
@@ -161,16 +169,16 @@ def _rows_of_spots(places: Places, share: float) -> Array:
     return np.array(spots).reshape(-1, 2)
 
 
-def seen_around(places: Places, points: Array) -> tuple[npt.NDArray[np.bool_], Array]:
-    """Where robots may start, and the distance to the nearest wall or obstacle (m).
+def free_of(places: Places, points: Array) -> npt.NDArray[np.bool_]:
+    """Where robots may start, shape (points,).
 
     Args:
         places: From `places_of`.
-        points: Shape (points, 2); of the walls of a box outline nothing is known.
+        points: Shape (points, 2), in the box from which places are drawn.
     """
-    free, gaps = np.zeros(len(points), dtype=np.bool_), np.zeros(len(points))
-    look_around(places, np.ascontiguousarray(points), free, gaps)
-    return free, gaps
+    free = np.zeros(len(points), dtype=np.bool_)
+    look_around(places.shapes, places.radius, np.ascontiguousarray(points), free)
+    return free
 
 
 def require_room(arena: Arena, radius: float, robots: int) -> Array:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,11 +11,8 @@ import numpy.typing as npt
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
 from geswarm.sim.arena.numbers import ground_numbers, object_numbers
-from geswarm.sim.arena.start_places import places_of, require_room
 from geswarm.sim.assembly.records import Records
-from geswarm.sim.compiled import start_all
 from geswarm.sim.kernels.pairs import Grid
-from geswarm.sim.kernels.state import ROBOT, SLOT, Beginning
 from geswarm.sim.scenario.checks import objects_from_walls
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.component import Component
@@ -116,7 +112,7 @@ def grid_for(scenario: Scenario) -> Grid:
     """Room for the search for neighbours and objects of a swarm; nothing listed yet."""
     robots = scenario.robots
     sight, skin = _sight(scenario)
-    columns, rows = _cells(scenario.width, scenario.length, 1.01 * (sight + skin), 4 * robots)
+    columns, rows = cells_of(scenario.width, scenario.length, 1.01 * (sight + skin), 4 * robots)
     source = (1, 1)
     if scenario.objects:
         lie = object_numbers(scenario.arena, 0.0)
@@ -124,7 +120,7 @@ def grid_for(scenario: Scenario) -> Grid:
             lie[f"objects_{high}"] - lie[f"objects_{low}"]
             for high, low in (("east", "west"), ("north", "south"))
         )
-        source = _cells(width, depth, scenario.grip_reach, scenario.objects)
+        source = cells_of(width, depth, scenario.grip_reach, scenario.objects)
     pairs, listed = np.empty((4 * robots, 2), dtype=np.int32), -1
     if robots <= _ALL_PAIRS_UP_TO:
         pairs = np.stack(np.triu_indices(robots, 1), axis=1).astype(np.int32)
@@ -141,64 +137,10 @@ def grid_for(scenario: Scenario) -> Grid:
     )
 
 
-def _cells(width: float, length: float, least: float, cells: int) -> tuple[int, int]:
+def cells_of(width: float, length: float, least: float, cells: int) -> tuple[int, int]:
     """Columns and rows of a grid of about so many cells, none narrower than `least`."""
     side = max(least, math.sqrt(width * length / cells))
     return max(1, int(width / side)), max(1, int(length / side))
-
-
-class Start(NamedTuple):
-    """Simulations at their start.
-
-    Attributes:
-        robots: Of ROBOT, shape (simulations, robots).
-        objects: float64, shape (simulations, objects, 2).
-    """
-
-    robots: Records
-    objects: npt.NDArray[np.float64]
-
-
-def start_of(scenario: Scenario, simulations: npt.NDArray[np.int64], parts: Parts) -> Start:
-    """Simulations at their start.
-
-    Args:
-        scenario: Of all of them.
-        simulations: (table, seed, individual, replicate) each.
-        parts: What the scenario is composed of.
-
-    Raises:
-        GroundError: The robots do not fit where they start.
-    """
-    robots = scenario.robots
-    large = robots > _ALL_PAIRS_UP_TO
-    columns, rows = _cells(scenario.width, scenario.length, 2.0 * footbot.RADIUS, 4 * robots)
-    arena, (walk_min, walk_max) = scenario.arena, scenario.random_walk
-    began = Start(
-        robots=np.zeros((len(simulations), robots), dtype=ROBOT),
-        objects=np.zeros((len(simulations), scenario.objects, 2)),
-    )
-    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
-    places = places_of(arena, footbot.RADIUS, margin if scenario.objects else None)
-    beginning = Beginning(parts.first_instance, parts.first_state, walk_min, walk_max, CONTROL_STEP)
-    placed = np.zeros(len(simulations), dtype=np.bool_)
-    for again in (False, True):
-        if again:
-            places = places._replace(spots=require_room(arena, footbot.RADIUS, robots))
-        start_all(
-            places,
-            beginning,
-            began.robots,
-            np.zeros(robots if large else 0, dtype=SLOT),
-            np.zeros((columns, rows + 1) if large else (0, 1), dtype=np.int32),
-            np.zeros(len(places.spots), dtype=np.int64),
-            began.objects,
-            np.ascontiguousarray(simulations, dtype=np.int64),
-            placed,
-        )
-        if placed.all():
-            break
-    return began
 
 
 def fill_robots(block: Records, began: Records) -> None:

@@ -1,76 +1,57 @@
-"""Where a robot may stand at the start: in double precision, by loops over what is in the arena."""
+"""Where a robot may stand at the start: in double precision, by a loop over what is in the arena."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from geswarm.sim.kernels.jit import inlined
-from geswarm.sim.kernels.state import Places
+from geswarm.sim.kernels.jit import called
+
+START_DISC, START_SIDE, WALL, CLOSED, ROUND, DISC, BOX = range(7)
+"""What there may be in an arena, see `is_free`."""
 
 
-@inlined
-def is_free(places: Places, x: float, y: float) -> bool:
+@called
+def is_free(shapes: Any, radius: float, x: float, y: float) -> bool:
     """Whether a place is where robots start, and clear of walls and obstacles.
 
-    Of the box from which places are drawn nothing is asked: they are in it.
+    Nothing is asked of a box outline, nor of the box from which places are drawn.
+
+    Args:
+        shapes: float64, shape (shapes, 7); the first number says what a row is, the others are of
+            START_DISC, in which robots start: x, y, radius;
+            START_SIDE, of the polygon in which they start: from x, y to x, y;
+            WALL, of the outline: from x, y to x, y;
+            CLOSED, what the sides or walls before it make: none;
+            ROUND, the outline: x, y, radius;
+            DISC, an obstacle: x, y, radius;
+            BOX, an obstacle: x, y, half width, half length, cos, sin.
+        radius: Of a robot (m).
+        x: Eastward (m).
+        y: Northward (m).
     """
-    at_x, at_y, radius = places.start_disc
-    free = radius < 0.0 or math.hypot(x - at_x, y - at_y) <= radius
-    if len(places.start_corners):
-        free = free and is_inside(places.start_corners, x, y)
-    return free and gap_around(places, x, y) >= places.radius
-
-
-@inlined
-def is_inside(corners: Any, x: float, y: float) -> bool:
-    """Whether a place is inside a polygon; shape (corners, 2 or more)."""
-    inside = False
-    before_x, before_y = corners[-1, 0], corners[-1, 1]
-    for k in range(len(corners)):
-        to_x, to_y = corners[k, 0], corners[k, 1]
-        if (before_y > y) != (to_y > y):
-            crossing = before_x + (to_x - before_x) * (y - before_y) / (to_y - before_y)
-            inside = inside != (x < crossing)
-        before_x, before_y = to_x, to_y
-    return inside
-
-
-@inlined
-def gap_around(places: Places, x: float, y: float) -> float:
-    """Distance to the nearest wall or obstacle, those of a box outline left out.
-
-    Negative outside the outline and inside an obstacle.
-    """
-    gap = math.inf
-    if places.round >= 0.0:
-        gap = places.round - math.hypot(x, y)
-    if len(places.walls):
-        for k in range(len(places.walls)):
-            gap = min(gap, _to_wall(places.walls[k], x, y))
-        gap = gap if is_inside(places.walls, x, y) else -gap
-    for k in range(len(places.discs)):
-        disc = places.discs[k]
-        gap = min(gap, math.hypot(x - disc[0], y - disc[1]) - disc[2])
-    for k in range(len(places.boxes)):
-        gap = min(gap, _to_box(places.boxes[k], x, y))
-    return gap
-
-
-@inlined
-def _to_wall(wall: Any, x: float, y: float) -> float:
-    along_x, along_y = wall[2] - wall[0], wall[3] - wall[1]
-    dx, dy = x - wall[0], y - wall[1]
-    share = (dx * along_x + dy * along_y) / (along_x * along_x + along_y * along_y)
-    share = min(max(share, 0.0), 1.0)
-    return math.hypot(dx - share * along_x, dy - share * along_y)
-
-
-@inlined
-def _to_box(box: Any, x: float, y: float) -> Any:
-    dx, dy = x - box[0], y - box[1]
-    across = abs(dx * box[4] + dy * box[5]) - box[2]
-    along = abs(dy * box[4] - dx * box[5]) - box[3]
-    if across < 0.0 and along < 0.0:
-        return max(across, along)
-    return math.hypot(max(across, 0.0), max(along, 0.0))
+    free, inside = True, False
+    for k in range(len(shapes)):
+        kind, gap = shapes[k, 0], math.inf
+        dx, dy = x - shapes[k, 1], y - shapes[k, 2]
+        if kind == CLOSED:
+            free, inside = free and inside, False
+        elif kind == BOX:
+            across = abs(dx * shapes[k, 5] + dy * shapes[k, 6]) - shapes[k, 3]
+            along = abs(dy * shapes[k, 5] - dx * shapes[k, 6]) - shapes[k, 4]
+            gap = math.hypot(max(across, 0.0), max(along, 0.0))
+        elif kind == START_SIDE or kind == WALL:
+            end_x, end_y = shapes[k, 3] - shapes[k, 1], shapes[k, 4] - shapes[k, 2]
+            if (dy < 0.0) != (shapes[k, 4] > y):
+                inside = inside != (x < shapes[k, 1] + end_x * dy / end_y)
+            if kind == WALL:
+                share = (dx * end_x + dy * end_y) / (end_x * end_x + end_y * end_y)
+                share = min(max(share, 0.0), 1.0)
+                gap = math.hypot(dx - share * end_x, dy - share * end_y)
+        elif kind == START_DISC:
+            free = free and math.hypot(dx, dy) <= shapes[k, 3]
+        else:
+            gap = math.hypot(dx, dy) - shapes[k, 3]
+            gap = -gap if kind == ROUND else gap
+        free = free and gap >= radius
+    return free

@@ -18,17 +18,12 @@ class Places(NamedTuple):
         start_half: See start_x.
         start_south: ... and from here `start_depth` to the north ...
         start_depth: See start_south.
-        start_disc: ... in this disc (x, y, radius), if its radius is not negative ...
-        start_corners: ... in the polygon with these corners, shape (corners, 2), if there are any.
         columns: How many robots fit side by side if nothing but the box limits where they start;
             else 0.
-        round: Radius of a disc outline, negative if it is none.
-        walls: Sides of a polygon outline, from (x, y) to (x, y), shape (walls, 4).
-        discs: Obstacles (x, y, radius), shape (discs, 3).
-        boxes: Obstacles (x, y, half width, half length, cos, sin), shape (boxes, 6).
+        shapes: What else limits where they start, shape (shapes, 7), see `free.is_free`.
         object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED or IN_DISC.
-        objects: Its numbers: middle x, half width, south, depth; as `boxes`; or as `discs`.
-        spots: Places for robots clear of each other, shape (spots, 2).
+        objects: Its numbers: middle x, half width, south, depth; x, y, half width, half length, cos,
+            sin; or x, y, radius.
     """
 
     half_width: float
@@ -38,16 +33,10 @@ class Places(NamedTuple):
     start_half: float
     start_south: float
     start_depth: float
-    start_disc: tuple[float, float, float]
-    start_corners: Any
     columns: int
-    round: float
-    walls: Any
-    discs: Any
-    boxes: Any
+    shapes: Any
     object_form: int
     objects: Any
-    spots: Any
 
 
 NO_PLACE, IN_BOX, IN_TURNED, IN_DISC = range(4)
@@ -81,18 +70,13 @@ ROBOT = np.dtype(
         ("walk_x", np.float64),  # unit vector of the random walk
         ("walk_y", np.float64),
         ("walk_until", np.float64),  # control steps since the start at which it is over
-        ("last_rule", np.int64),  # the rule that fired last, -1 before any
         ("behaviour", np.uint8),
         ("states", np.uint8),  # internal-state bits
-        ("percepts", np.uint8),  # as perceived in the last step
         ("carried", np.bool_),
     ],
     align=True,
 )
 """State of a robot at the start."""
-
-SLOT = np.dtype([("robot", np.int64), ("column", np.int32), ("row", np.int32)], align=True)
-"""A robot in the order of the cells of a large swarm's grid."""
 
 LANES = 64
 """Simulations side by side, or robots of one swarm, in one block."""

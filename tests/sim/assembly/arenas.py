@@ -14,9 +14,9 @@ from geswarm.sim.arena.start_places import places_of, spots_of
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type
 from geswarm.sim.assembly.source import Layout
-from geswarm.sim.compiled import start_all
 from geswarm.sim.controllers.encoding import fill_robots, grid_for, scenario_numbers
-from geswarm.sim.kernels.state import LANES, ROBOT, SLOT, Beginning
+from geswarm.sim.controllers.starting import begin
+from geswarm.sim.kernels.state import LANES, ROBOT, Beginning
 from geswarm.sim.terms import avoidance, light, objects, walk
 from geswarm.sim.terms.declare import measure, percept, sensor
 from geswarm.sim.terms.ground import Ground
@@ -168,20 +168,9 @@ class Run:
 def started(arena, robots, number_of_objects, seed, simulations):
     """Robots and objects at the start of some simulations."""
     places = places_of(arena, RADIUS, MARGIN)
-    places = places._replace(spots=spots_of(arena, RADIUS))
-    began = np.zeros((simulations, robots), dtype=ROBOT)
-    items = np.zeros((simulations, number_of_objects, 2))
     keys = np.array([(0, seed, 0, number) for number in range(simulations)])
-    placed = np.zeros(simulations, dtype=np.bool_)
-    slots = np.zeros(robots if robots > 12 else 0, dtype=SLOT)
-    # Cells are at least as wide as a robot.
-    starts = np.zeros((9, 10) if robots > 12 else (0, 1), dtype=np.int32)
-    order = np.zeros(len(places.spots), dtype=np.int64)
-    start_all(
-        places, Beginning(2, 1, 5.0, 15.0, 0.1), began, slots, starts, order, items, keys, placed
-    )
-    assert placed.all()
-    return began, items
+    beginning, numbers = Beginning(2, 1, 5.0, 15.0, 0.1), (robots, number_of_objects)
+    return begin(places, beginning, keys, numbers, lambda: spots_of(arena, RADIUS))
 
 
 sizes = st.floats(0.8, 3.0)
