@@ -26,7 +26,6 @@ _FOLDER = Path(start.__file__).parent
 VERSION = _fingerprint(_FOLDER, _FOLDER.parent / "terms", _FOLDER.parent / "assembly")
 """Checksum of the sources from which kernels are assembled and compiled."""
 
-scatter = start.build_scatter(VERSION)
-point = start.build_point(VERSION)
+begin = start.build_begin(VERSION)
 look_around = start.build_look_around(VERSION)
 compile_tables = tabulate.build_compile_tables(VERSION)

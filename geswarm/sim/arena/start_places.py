@@ -56,11 +56,12 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
     extent = reach if region is None else extent_of(region).intersection(reach)
     box = box_numbers(extent)
     turned = isinstance(region, Box) and bool(region.angle % 180.0)
-    shapes = [*_outline(arena), *(_obstacle(each) for each in arena.obstacles)]
+    shapes: list[tuple[float, ...]] = []
     if isinstance(region, Disc):
-        shapes.append((START_DISC, region.x, region.y, region.radius))
+        shapes = [(START_DISC, region.x, region.y, region.radius)]
     elif region is not None and (turned or isinstance(region, Polygon)):
-        shapes += _closed(START_SIDE, corners(region).tolist())
+        shapes = _closed(START_SIDE, corners(region).tolist())
+    shapes += [*_outline(arena), *(_obstacle(each) for each in arena.obstacles)]
     form, objects = _objects(arena, margin)
     return Places(
         half_width=arena.half_width,
@@ -71,7 +72,7 @@ def places_of(arena: Arena, radius: float, margin: float | None = None) -> Place
         start_south=box["south"],
         start_depth=box["depth"],
         columns=0 if shapes else _columns(arena, extent, radius),
-        shapes=_rows(7, shapes),
+        shapes=_rows(7, shapes) if shapes else None,
         object_form=form,
         objects=objects,
     )
@@ -176,7 +177,9 @@ def free_of(places: Places, points: Array) -> npt.NDArray[np.bool_]:
         places: From `places_of`.
         points: Shape (points, 2), in the box from which places are drawn.
     """
-    free = np.zeros(len(points), dtype=np.bool_)
+    free = np.ones(len(points), dtype=np.bool_)
+    if places.shapes is None:
+        return free
     look_around(places.shapes, places.radius, np.ascontiguousarray(points), free)
     return free
 

@@ -13,25 +13,15 @@ from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim import footbot
 from geswarm.sim.arena.start_places import places_of, require_room
 from geswarm.sim.assembly.records import Records
-from geswarm.sim.compiled import point, scatter
+from geswarm.sim.compiled import begin
 from geswarm.sim.controllers.encoding import cells_of
-from geswarm.sim.kernels.draws import (
-    START_HEADING,
-    START_OBJECT_X,
-    START_OBJECT_Y,
-    START_WALK,
-    START_WALK_TIME,
-    START_X,
-    START_Y,
-    Keys,
-    draw,
-    make_keys,
-)
-from geswarm.sim.kernels.start import PLACEMENT_ATTEMPTS
-from geswarm.sim.kernels.state import IN_BOX, IN_TURNED, NO_PLACE, ROBOT, Beginning, Places
+from geswarm.sim.kernels.state import IN_BOX, IN_TURNED, ROBOT, Beginning, Places
 from geswarm.sim.scenario.checks import objects_from_walls
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.parts import Parts
+
+_MORE = 1.0 + 1e-9
+"""Cells are wider than two robots that touch by more than what numbers are rounded to."""
 
 Array: TypeAlias = npt.NDArray[np.float64]
 
@@ -67,10 +57,10 @@ def start_of(scenario: Scenario, simulations: npt.NDArray[np.int64], parts: Part
     def spots() -> Array:
         return require_room(arena, footbot.RADIUS, robots)
 
-    return begin(places, beginning, simulations, (robots, scenario.objects), spots)
+    return begun(places, beginning, simulations, (robots, scenario.objects), spots)
 
 
-def begin(
+def begun(
     places: Places,
     beginning: Beginning,
     simulations: npt.NDArray[np.int64],
@@ -87,51 +77,42 @@ def begin(
         spots: Called if robots find no place at random: at least as many places as there are
             robots, clear of each other (m), shape (spots, 2).
     """
-    robots, objects = numbers
-    keys = make_keys(simulations, robots + 1)
-    arena_keys, keys = keys[:, robots:], np.ascontiguousarray(keys[:, :robots])
-    at, placed = _scattered(places, keys)
-    if not placed.all():
-        left = keys[~placed]
-        at[~placed] = _in_cells(places, left) if places.columns else _at_spots(spots(), left)
-    began = np.zeros(keys.shape, dtype=ROBOT)
-    began["key"], began["x"], began["y"] = keys, at[..., 0], at[..., 1]
-    began["behaviour"], began["states"] = beginning.behaviour, beginning.state
-    began["cos"], began["sin"] = _directions(2.0 * math.pi * draw(keys, 0, START_HEADING))
-    began["walk_x"], began["walk_y"] = _directions(2.0 * math.pi * draw(keys, 0, START_WALK))
-    longer = (beginning.walk_max - beginning.walk_min) * draw(keys, 0, START_WALK_TIME)
-    began["walk_until"] = (beginning.walk_min + longer) / beginning.control_step
-    numbered = np.arange(objects)
-    u, v = (draw(arena_keys, numbered, purpose) for purpose in (START_OBJECT_X, START_OBJECT_Y))
-    return Start(began, np.stack(_of_objects(places, u, v), axis=-1))
-
-
-def _scattered(places: Places, keys: Keys) -> tuple[Array, npt.NDArray[np.bool_]]:
-    """Places at random, shape (simulations, robots, 2), and in which simulations all have one."""
-    robots = keys.shape[1]
-    width, length, diameter = 2.0 * places.half_width, 2.0 * places.half_length, 2.0 * places.radius
-    columns, rows = cells_of(width, length, diameter, 4 * robots)
+    (robots, objects), count = numbers, len(simulations)
     box = (places.start_x, places.start_half, places.start_south, places.start_depth)
-    at, placed = np.zeros((*keys.shape, 2)), np.zeros(len(keys), dtype=np.bool_)
-    scatter(
-        keys,
-        np.array([*box, places.half_width, places.half_length]),
+    least = 2.0 * places.radius * _MORE
+    columns, rows = cells_of(2.0 * places.start_half, places.start_depth, least, 4 * robots)
+    keys, placed = np.empty(count * robots, np.uint64), np.empty(count, np.bool_)
+    drawn, lying = np.empty((9, count * robots)), np.empty((4, count * objects))
+    begin(
+        np.ascontiguousarray(simulations, dtype=np.int64),
+        np.array(box),
         places.radius,
         places.shapes,
-        np.zeros((columns + 2, rows + 2), dtype=np.int32),
-        np.zeros(robots, dtype=np.int32),
-        at,
-        placed,
+        np.empty((columns + 2, rows + 2), np.int32),
+        np.empty(robots, np.int32),
+        *(keys, placed, drawn, lying),
     )
-    return at, placed
+    drawn, lying = drawn.reshape(9, count, robots), lying.reshape(4, count, objects)
+    if not placed.all():
+        left = drawn[7:, ~placed]
+        at = _in_cells(places, *left) if places.columns else _at_spots(spots(), left[0])
+        drawn[:2, ~placed] = at
+    began = np.zeros((count, robots), dtype=ROBOT)
+    began["key"] = keys.reshape(count, robots)
+    for name, values in zip(("x", "y", "cos", "sin", "walk_x", "walk_y"), drawn, strict=False):
+        began[name] = values
+    longer = (beginning.walk_max - beginning.walk_min) * drawn[6]
+    began["walk_until"] = (beginning.walk_min + longer) / beginning.control_step
+    began["behaviour"], began["states"] = beginning.behaviour, beginning.state
+    return Start(began, _of_objects(places, *lying))
 
 
-def _in_cells(places: Places, keys: Keys) -> Array:
+def _in_cells(places: Places, u: Array, v: Array) -> tuple[Array, Array]:
     """Each robot at random in a cell of its own, at least as wide and deep as a robot.
 
     There are cells enough: a scenario has no more robots than there is room for.
     """
-    diameter, robots = 2.0 * places.radius, keys.shape[1]
+    diameter, robots = 2.0 * places.radius, u.shape[1]
     south, north = places.start_south, places.start_south + places.start_depth
     west, east = places.start_x - places.start_half, places.start_x + places.start_half
     rows = -(-robots // places.columns)
@@ -139,44 +120,39 @@ def _in_cells(places: Places, keys: Keys) -> Array:
     width = (2.0 * places.start_half + diameter) / columns
     depth = (places.start_depth + diameter) / rows
     row, column = np.divmod(np.arange(robots), columns)
-    u = draw(keys, PLACEMENT_ATTEMPTS, START_X) - 0.5
-    v = draw(keys, PLACEMENT_ATTEMPTS, START_Y) - 0.5
-    x = width * (column + 0.5) + west - places.radius + (width - diameter) * u
-    y = depth * (row + 0.5) + south - places.radius + (depth - diameter) * v
+    x = width * (column + 0.5) + west - places.radius + (width - diameter) * (u - 0.5)
+    y = depth * (row + 0.5) + south - places.radius + (depth - diameter) * (v - 0.5)
     # But for rounding they are there already.
-    return np.stack((np.clip(x, west, east), np.clip(y, south, north)), axis=-1)
+    return np.clip(x, west, east), np.clip(y, south, north)
 
 
-def _at_spots(spots: Array, keys: Keys) -> Array:
+def _at_spots(spots: Array, u: Array) -> Array:
     """Each robot at a spot of its own, drawn from those that are left."""
-    robots = keys.shape[1]
+    robots = u.shape[1]
     left = len(spots) - np.arange(robots)
-    chosen = (left * draw(keys, PLACEMENT_ATTEMPTS, START_X)).astype(np.int64)
+    chosen = (left * u).astype(np.int64)
     chosen = np.minimum(np.arange(robots) + chosen, len(spots) - 1)
-    taken = np.empty(keys.shape, dtype=np.int64)
+    taken = np.empty(chosen.shape, dtype=np.int64)
     for simulation, choices in zip(taken, chosen.tolist(), strict=True):
         order = list(range(len(spots)))
         for i, k in enumerate(choices):
             order[i], order[k] = order[k], order[i]
         simulation[:] = order[:robots]
-    return spots[taken]
+    return np.moveaxis(spots[taken], -1, 0)
 
 
-def _directions(angles: Array) -> tuple[Array, Array]:
-    """Cosines and sines; numpy's own are rounded one way on some processors, another on others."""
-    cosines, sines = np.empty_like(angles), np.empty_like(angles)
-    point(angles.ravel(), cosines.ravel(), sines.ravel())
-    return cosines, sines
-
-
-def _of_objects(places: Places, u: Array, v: Array) -> tuple[Array, Array]:
-    """Where objects lie, x and y; u and v uniform in [0, 1), shape (simulations, objects)."""
-    place = places.objects
+def _of_objects(places: Places, u: Array, v: Array, turned_x: Array, turned_y: Array) -> Array:
+    """Where objects lie; u and v uniform in [0, 1), shape (simulations, objects)."""
+    place, lying = places.objects, np.empty((*u.shape, 2))
     if places.object_form == IN_BOX:  # x, half width, south, depth
-        return place[0] + place[1] * (2.0 * u - 1.0), place[2] + place[3] * v
-    if places.object_form == IN_TURNED:  # x, y, half width, half length, cos, sin
+        lying[..., 0] = place[0] + place[1] * (2.0 * u - 1.0)
+        lying[..., 1] = place[2] + place[3] * v
+    elif places.object_form == IN_TURNED:  # x, y, half width, half length, cos, sin
         cos, sin = place[4], place[5]
         across, along = place[2] * (2.0 * u - 1.0), place[3] * (2.0 * v - 1.0)
-        return place[0] + across * cos - along * sin, place[1] + along * cos + across * sin
-    d, (cosines, sines) = place[2] * np.sqrt(u), _directions(2.0 * math.pi * v)  # x, y, radius
-    return place[0] + d * cosines, place[1] + d * sines
+        lying[..., 0] = place[0] + across * cos - along * sin
+        lying[..., 1] = place[1] + along * cos + across * sin
+    else:  # x, y, radius
+        d = place[2] * np.sqrt(u)
+        lying[..., 0], lying[..., 1] = place[0] + d * turned_x, place[1] + d * turned_y
+    return lying

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from geswarm.sim.kernels.jit import called
+from geswarm.sim.kernels.jit import inlined
 
 START_DISC, START_SIDE, WALL, CLOSED, ROUND, DISC, BOX = range(7)
 """What there may be in an arena, see `is_free`."""
 
 
-@called
+@inlined
 def is_free(shapes: Any, radius: float, x: float, y: float) -> bool:
     """Whether a place is where robots start, and clear of walls and obstacles.
 
@@ -30,12 +30,12 @@ def is_free(shapes: Any, radius: float, x: float, y: float) -> bool:
         x: Eastward (m).
         y: Northward (m).
     """
-    free, inside = True, False
+    inside = False
     for k in range(len(shapes)):
         kind, gap = shapes[k, 0], math.inf
         dx, dy = x - shapes[k, 1], y - shapes[k, 2]
         if kind == CLOSED:
-            free, inside = free and inside, False
+            gap, inside = math.inf if inside else -math.inf, False
         elif kind == BOX:
             across = abs(dx * shapes[k, 5] + dy * shapes[k, 6]) - shapes[k, 3]
             along = abs(dy * shapes[k, 5] - dx * shapes[k, 6]) - shapes[k, 4]
@@ -49,9 +49,10 @@ def is_free(shapes: Any, radius: float, x: float, y: float) -> bool:
                 share = min(max(share, 0.0), 1.0)
                 gap = math.hypot(dx - share * end_x, dy - share * end_y)
         elif kind == START_DISC:
-            free = free and math.hypot(dx, dy) <= shapes[k, 3]
+            gap = math.inf if math.hypot(dx, dy) <= shapes[k, 3] else -math.inf
         else:
             gap = math.hypot(dx, dy) - shapes[k, 3]
             gap = -gap if kind == ROUND else gap
-        free = free and gap >= radius
-    return free
+        if gap < radius:
+            return False
+    return True

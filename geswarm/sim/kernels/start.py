@@ -11,96 +11,127 @@ from typing import Any
 
 import numpy as np
 
-from geswarm.sim.kernels.draws import START_X, START_Y, draw_bits
+from geswarm.sim.kernels.draws import (
+    START_HEADING,
+    START_OBJECT_X,
+    START_OBJECT_Y,
+    START_WALK,
+    START_WALK_TIME,
+    START_X,
+    START_Y,
+    draw,
+    make_key,
+)
 from geswarm.sim.kernels.free import is_free
 from geswarm.sim.kernels.jit import called, kernel
 
 PLACEMENT_ATTEMPTS = 200
 """At how many random places a robot may overlap another one before all are placed by cells."""
-_SHARE = 1.0 / 4294967296.0  # of random bits
 
 
 @called
-def _is_clear(places: Any, i: int, heads: Any, following: Any, column: int, row: int, apart: float) -> bool:
-    """Whether a robot being placed, in a cell, is clear of those placed before.
+def _place(
+    keys: Any, first: int, box: Any, radius: float, shapes: Any, heads: Any, behind: Any, drawn: Any
+) -> bool:
+    """Place the robots of a simulation, of which `first` is one; whether all have a place.
 
-    A cell's head is the robot placed last in it or -1; each robot names the one before it.
+    The head of a cell is the robot placed last in it or -1; each names the one placed before it.
     """
-    for c in range(column, column + 3):
-        for r in range(row, row + 3):
-            j = heads[c, r]
-            while j >= 0:
-                dx, dy = places[i, 0] - places[j, 0], places[i, 1] - places[j, 1]
-                if math.hypot(dx, dy) < apart:
-                    return False
-                j = following[j]
-    return True
+    columns, rows = heads.shape[0] - 2, heads.shape[1] - 2
+    for column in range(columns + 2):
+        for row in range(rows + 2):
+            heads[column, row] = -1
+    attempt, i = 0, 0
+    while i < len(behind) and attempt < PLACEMENT_ATTEMPTS:
+        u = draw(keys[first + i], attempt, START_X)
+        v = draw(keys[first + i], attempt, START_Y)
+        x, y = box[0] + box[1] * (2.0 * u - 1.0), box[2] + box[3] * v
+        column, row = np.int64(u * columns), np.int64(v * rows)
+        attempt += 1
+        clear = True
+        for c in range(column, column + 3):
+            for r in range(row, row + 3):
+                j = heads[c, r]
+                while j >= 0 and clear:
+                    dx, dy = x - drawn[0, first + j], y - drawn[1, first + j]
+                    clear = math.hypot(dx, dy) >= 2.0 * radius
+                    j = behind[j]
+        if shapes is not None:
+            clear = clear and is_free(shapes, radius, x, y)
+        if clear:
+            drawn[0, first + i], drawn[1, first + i] = x, y
+            behind[i] = heads[column + 1, row + 1]
+            heads[column + 1, row + 1] = i
+            attempt, i = 0, i + 1
+    return i == len(behind)
 
 
-def build_scatter(version: int) -> Any:
-    """The kernel that places robots at random; `version` becomes part of its cache key."""
+@called
+def _turn(share: float, to: Any, at: int, number: int) -> None:
+    """Put the direction of a share of a full turn at `at`."""
+    angle = 2.0 * math.pi * share
+    to[at, number], to[at + 1, number] = math.cos(angle), math.sin(angle)
+
+
+def build_begin(version: int) -> Any:
+    """The kernel that begins simulations; `version` becomes part of its cache key."""
 
     @kernel
-    def scatter(
-        keys: Any, box: Any, radius: float, shapes: Any, heads: Any, following: Any, places: Any, placed: Any
+    def begin(
+        simulations: Any,
+        box: Any,
+        radius: float,
+        shapes: Any,
+        heads: Any,
+        behind: Any,
+        keys: Any,
+        placed: Any,
+        robots: Any,
+        objects: Any,
     ) -> int:
-        """Place the robots of each simulation at random, clear of each other.
+        """Place the robots of each simulation at random, and draw what else it begins with.
 
-        Each in turn takes the first of its PLACEMENT_ATTEMPTS places that is clear of those before;
-        if none is, that simulation's robots have no places.
+        Each robot in turn takes the first of its PLACEMENT_ATTEMPTS places that is free and clear
+        of those before; if one finds none, that simulation's robots have no places.
 
         Args:
-            keys: uint64, shape (simulations, robots), see `draws.make_keys`.
+            simulations: int64, shape (simulations, 4): anything, seed, individual, replicate.
             box: float64, where places are drawn (m): the middle x, half the width, the southern
-                end, the depth; half the width and length of the arena.
+                end, the depth.
             radius: Of a robot (m).
-            shapes: What else limits where robots may be, see `free.is_free`.
-            heads: Working space, int32, shape (columns + 2, rows + 2): cells of the arena at least
-                two radii wide and long, and a border.
-            following: Working space, int32, shape (robots,).
-            places: float64, shape (simulations, robots, 2): x and y.
+            shapes: What else limits where robots may be, see `free.is_free`; None for nothing.
+            heads: Working space, int32, shape (columns + 2, rows + 2): cells of that box at least
+                two radii wide and deep if they are not all of it, and a border of -1.
+            behind: Working space, int32, shape (robots,).
+            keys: uint64, shape (simulations * robots,), of random numbers.
             placed: bool, shape (simulations,): whether all robots have a place.
+            robots: float64, shape (9, simulations * robots): x and y (m); cosine and sine of the
+                orientation, and of the random walk; in [0, 1) how long that is kept, and two
+                numbers for a place in a cell.
+            objects: float64, shape (4, simulations * objects): two numbers in [0, 1), cosine and
+                sine of the second one's share of a full turn.
         """
-        columns, rows = heads.shape[0] - 2, heads.shape[1] - 2
-        per_x, per_y = columns / (2.0 * box[4]), rows / (2.0 * box[5])
-        for s in range(len(keys)):
-            for column in range(columns + 2):
-                for row in range(rows + 2):
-                    heads[column, row] = -1
-            attempt, i = 0, 0
-            while i < keys.shape[1] and attempt < PLACEMENT_ATTEMPTS:
-                low, high = np.uint32(keys[s, i]), np.uint32(keys[s, i] >> np.uint64(32))
-                u = draw_bits(low, high, attempt, START_X) * _SHARE
-                v = draw_bits(low, high, attempt, START_Y) * _SHARE
-                x, y = box[0] + box[1] * (2.0 * u - 1.0), box[2] + box[3] * v
-                places[s, i, 0], places[s, i, 1] = x, y
-                column = min(max(int((x + box[4]) * per_x), 0), columns - 1)
-                row = min(max(int((y + box[5]) * per_y), 0), rows - 1)
-                attempt += 1
-                if is_free(shapes, radius, x, y) and _is_clear(
-                    places[s], i, heads, following, column, row, 2.0 * radius
-                ):
-                    following[i] = heads[column + 1, row + 1]
-                    heads[column + 1, row + 1] = i
-                    attempt, i = 0, i + 1
-            placed[s] = i == keys.shape[1]
+        count, items = len(behind), objects.shape[1] // len(simulations)
+        for s in range(len(simulations)):
+            seed, individual, replicate = simulations[s, 1], simulations[s, 2], simulations[s, 3]
+            for i in range(count):
+                n, key = s * count + i, make_key(seed, individual, replicate, i)
+                keys[n] = key
+                _turn(draw(key, 0, START_HEADING), robots, 2, n)
+                _turn(draw(key, 0, START_WALK), robots, 4, n)
+                robots[6, n] = draw(key, 0, START_WALK_TIME)
+                robots[7, n] = draw(key, PLACEMENT_ATTEMPTS, START_X)
+                robots[8, n] = draw(key, PLACEMENT_ATTEMPTS, START_Y)
+            placed[s] = _place(keys, s * count, box, radius, shapes, heads, behind, robots)
+            key = make_key(seed, individual, replicate, count)
+            for o in range(items):
+                n = s * items + o
+                objects[0, n] = draw(key, o, START_OBJECT_X)
+                objects[1, n] = draw(key, o, START_OBJECT_Y)
+                _turn(objects[1, n], objects, 2, n)
         return version
 
-    return scatter
-
-
-def build_point(version: int) -> Any:
-    """The kernel that gives directions; `version` becomes part of its cache key."""
-
-    @kernel
-    def point(angles: Any, cosines: Any, sines: Any) -> int:
-        """Give cosines and sines of angles (rad), float64, shape (angles,) each."""
-        for number in range(len(angles)):
-            cosines[number] = math.cos(angles[number])
-            sines[number] = math.sin(angles[number])
-        return version
-
-    return point
+    return begin
 
 
 def build_look_around(version: int) -> Any:

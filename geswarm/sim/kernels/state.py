@@ -20,7 +20,8 @@ class Places(NamedTuple):
         start_depth: See start_south.
         columns: How many robots fit side by side if nothing but the box limits where they start;
             else 0.
-        shapes: What else limits where they start, shape (shapes, 7), see `free.is_free`.
+        shapes: What else limits where they start, shape (shapes, 7), see `free.is_free`;
+            None for nothing.
         object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED or IN_DISC.
         objects: Its numbers: middle x, half width, south, depth; x, y, half width, half length, cos,
             sin; or x, y, radius.

@@ -15,7 +15,7 @@ from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.controllers.encoding import fill_robots, grid_for, scenario_numbers
-from geswarm.sim.controllers.starting import begin
+from geswarm.sim.controllers.starting import begun
 from geswarm.sim.kernels.state import LANES, ROBOT, Beginning
 from geswarm.sim.terms import avoidance, light, objects, walk
 from geswarm.sim.terms.declare import measure, percept, sensor
@@ -170,7 +170,7 @@ def started(arena, robots, number_of_objects, seed, simulations):
     places = places_of(arena, RADIUS, MARGIN)
     keys = np.array([(0, seed, 0, number) for number in range(simulations)])
     beginning, numbers = Beginning(2, 1, 5.0, 15.0, 0.1), (robots, number_of_objects)
-    return begin(places, beginning, keys, numbers, lambda: spots_of(arena, RADIUS))
+    return begun(places, beginning, keys, numbers, lambda: spots_of(arena, RADIUS))
 
 
 sizes = st.floats(0.8, 3.0)
