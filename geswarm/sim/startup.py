@@ -17,7 +17,8 @@ import numpy as np
 
 from geswarm.rules import RuleSet
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import compiled
+from geswarm.sim import compiled, footbot
+from geswarm.sim.arena.start_places import places_of
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
 from geswarm.sim.batch import Group, evaluate, runs_side_by_side
@@ -138,6 +139,7 @@ def _mark(scenario: Scenario, interactive: bool) -> Path:
         wide=is_wide(scenario),
     )
     text, _ = source_of(parts_of(scenario), layout)
-    machine = (platform.python_version(), numba.__version__, *vector_settings(), text)
+    limits = places_of(scenario.arena, footbot.RADIUS).shapes is not None  # of where robots start
+    machine = (platform.python_version(), numba.__version__, *vector_settings(), str(limits), text)
     key = zlib.crc32("|".join(machine).encode(), compiled.VERSION)
     return cache.folder() / f"compiled-{key:08x}"

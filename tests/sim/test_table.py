@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from geswarm.rules import FORAGING, ControlTable, Rule, RuleSet, Space, StateChange
 from geswarm.sim import load_scenario, parts_of
 from geswarm.sim.controllers.tables import compile_controllers
-from geswarm.sim.kernels.table import ROW_BEHAVIOURS
+from geswarm.sim.kernels.table import MOST_CLASSES, ROW_BEHAVIOURS
+from tests.sim.terms.scenarios import SENSING
 from tests.strategies import any_probabilities, plain_rule_sets
 
 PARTS = parts_of(load_scenario("paper"))
@@ -102,3 +103,14 @@ def test_names_of_the_vocabulary_are_the_components():
     assert [bool(each.start) for each in PARTS.behaviours] == [
         entry.restarts for entry in FORAGING.behaviours
     ]
+
+
+def test_more_classes_than_there_is_room_for_are_refused():
+    """Rules that are too many to be told apart make a class of each code."""
+    scenario = SENSING.with_changes(behaviours=("STOP",), registers=("WANT_OBJECT", "DROP_OBJECT"))
+    parts = parts_of(scenario)
+    assert parts.codes > MOST_CLASSES
+    rule = Rule(actions=(StateChange(0.01, "WANT_OBJECT", False),))
+    fails = [0.0] * len(parts.sensors)
+    with pytest.raises(ValueError, match=r"rule set 0: .* too large: .* 1024 classes"):
+        compile_controllers([RuleSet((rule,) * 100)], fails, parts)

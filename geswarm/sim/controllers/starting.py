@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
@@ -82,7 +81,7 @@ def begun(
     least = 2.0 * places.radius * _MORE
     columns, rows = cells_of(2.0 * places.start_half, places.start_depth, least, 4 * robots)
     keys, placed = np.empty(count * robots, np.uint64), np.empty(count, np.bool_)
-    drawn, lying = np.empty((9, count * robots)), np.empty((4, count * objects))
+    drawn, lying = np.empty((9, count, robots)), np.empty((4, count, objects))
     begin(
         np.ascontiguousarray(simulations, dtype=np.int64),
         np.array(box),
@@ -90,9 +89,8 @@ def begun(
         places.shapes,
         np.empty((columns + 2, rows + 2), np.int32),
         np.empty(robots, np.int32),
-        *(keys, placed, drawn, lying),
+        *(keys, placed, drawn.reshape(9, -1), lying.reshape(4, -1)),
     )
-    drawn, lying = drawn.reshape(9, count, robots), lying.reshape(4, count, objects)
     if not placed.all():
         left = drawn[7:, ~placed]
         at = _in_cells(places, *left) if places.columns else _at_spots(spots(), left[0])

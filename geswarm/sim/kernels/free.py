@@ -1,4 +1,4 @@
-"""Where a robot may stand at the start: in double precision, by a loop over what is in the arena."""
+"""Where a robot may stand at the start, in double precision: by a loop over what there is."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def is_free(shapes: Any, radius: float, x: float, y: float) -> bool:
             across = abs(dx * shapes[k, 5] + dy * shapes[k, 6]) - shapes[k, 3]
             along = abs(dy * shapes[k, 5] - dx * shapes[k, 6]) - shapes[k, 4]
             gap = math.hypot(max(across, 0.0), max(along, 0.0))
-        elif kind == START_SIDE or kind == WALL:
+        elif START_SIDE <= kind <= WALL:
             end_x, end_y = shapes[k, 3] - shapes[k, 1], shapes[k, 4] - shapes[k, 2]
             if (dy < 0.0) != (shapes[k, 4] > y):
                 inside = inside != (x < shapes[k, 1] + end_x * dy / end_y)

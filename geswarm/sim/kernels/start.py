@@ -38,9 +38,9 @@ def _place(
     The head of a cell is the robot placed last in it or -1; each names the one placed before it.
     """
     columns, rows = heads.shape[0] - 2, heads.shape[1] - 2
-    for column in range(columns + 2):
-        for row in range(rows + 2):
-            heads[column, row] = -1
+    for c in range(columns + 2):
+        for r in range(rows + 2):
+            heads[c, r] = -1
     attempt, i = 0, 0
     while i < len(behind) and attempt < PLACEMENT_ATTEMPTS:
         u = draw(keys[first + i], attempt, START_X)

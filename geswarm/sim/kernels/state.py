@@ -23,8 +23,8 @@ class Places(NamedTuple):
         shapes: What else limits where they start, shape (shapes, 7), see `free.is_free`;
             None for nothing.
         object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED or IN_DISC.
-        objects: Its numbers: middle x, half width, south, depth; x, y, half width, half length, cos,
-            sin; or x, y, radius.
+        objects: Its numbers: middle x, half width, south, depth; or x, y, half width, half length,
+            cos, sin; or x, y, radius.
     """
 
     half_width: float

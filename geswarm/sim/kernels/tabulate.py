@@ -261,6 +261,8 @@ def _same_row(room: Any, row: int, behaviours: int) -> int:
 def _unfold(dense: Any, encoded: Any, room: Any, codes: int, behaviours: int) -> int:
     """Distributions that are given for each code, behaviour and outcome; each code is a class.
 
+    Returns -1 if these are too many classes, or a row has too many outcomes.
+
     Args:
         dense: float64, shape (codes, behaviours, outcomes); an outcome is (behaviour * states +
             what the registers become) * 2 + restart.
@@ -269,6 +271,8 @@ def _unfold(dense: Any, encoded: Any, room: Any, codes: int, behaviours: int) ->
         codes: Number of codes.
         behaviours: Number of behaviours.
     """
+    if codes > room.start.shape[1]:
+        return -1
     states = dense.shape[2] // (2 * behaviours)
     for code in range(codes):
         room.class_of_code[0, code] = code
@@ -279,6 +283,8 @@ def _unfold(dense: Any, encoded: Any, room: Any, codes: int, behaviours: int) ->
             row, length = code * ROW_BEHAVIOURS + behaviour, 0
             for outcome in range(dense.shape[2]):
                 if dense[code, behaviour, outcome] > 0.0:
+                    if length == MOST_OUTCOMES:
+                        return -1
                     becomes = outcome // 2 % states
                     differs = becomes ^ start
                     key = IDENTITY | (outcome // 2 // states << 1) | (outcome & 1)
@@ -316,6 +322,8 @@ def build_compile_tables(version: int) -> Any:
             behaviours = encoded.instances[number]
             if len(dense):
                 classes = _unfold(dense[number], encoded, room, codes, behaviours)
+                if classes < 0:
+                    return -1 - number
             else:
                 known = _let_through(encoded, room, number)
                 classes = _classify(encoded, room) if known >= 0 else -1
