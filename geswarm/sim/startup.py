@@ -33,7 +33,7 @@ from geswarm.sim.world import World
 
 COMPILING = "Compiling the simulator for this machine, once: about {seconds} s …"
 COMPILING_EACH_TIME = "Compiling the simulator for this machine, each time: about {seconds} s …"
-SECONDS, SECONDS_INTERACTIVE = 9, 14
+SECONDS, SECONDS_INTERACTIVE = 7, 12
 """With two cores; on one it takes almost twice as long."""
 NOT_KEPT = (
     "The compiled simulator cannot be kept ({trouble}), so it compiles each time; "
