@@ -21,7 +21,8 @@ def printed(capsys, *arguments):
 
 def terms(capsys, *arguments):
     document = json.loads(printed(capsys, "terms", "--json", *arguments))
-    return {(each["kind"], each["name"]): each for each in document["terms"]}
+    of_the_first_body = reversed(document["terms"])
+    return {(each["kind"], each["name"]): each for each in of_the_first_body}
 
 
 def test_scenarios_are_listed_with_all_that_tells_them_apart(capsys):
@@ -45,10 +46,14 @@ def test_tables_fit_a_terminal(verb, capsys):
 def test_the_library_lists_every_term(capsys):
     found = terms(capsys)
     for kind, known in (
-        ("precondition", BUILT_IN.percepts),
-        ("behaviour", BUILT_IN.behaviours),
-        ("register", BUILT_IN.registers),
-        ("measure", BUILT_IN.measures),
+        (kind, terms_of)
+        for each in BUILT_IN.values()
+        for kind, terms_of in (
+            ("precondition", each.percepts),
+            ("behaviour", each.behaviours),
+            ("register", each.registers),
+            ("measure", each.measures),
+        )
     ):
         assert {name for of, name in found if of == kind} >= known.keys()
     assert ("precondition", "ON_<AREA>") in found

@@ -17,7 +17,7 @@ import numpy as np
 
 from geswarm.rules import RuleSet
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import compiled, footbot
+from geswarm.sim import compiled
 from geswarm.sim.arena.start_places import places_of
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
@@ -134,12 +134,14 @@ def _to_stderr(message: str) -> None:
 def _mark(scenario: Scenario, interactive: bool) -> Path:
     """A file beside the compiled code that says what has been compiled, for what."""
     layout = Layout(
-        swarm=interactive or not runs_side_by_side(scenario),
+        swarm=not scenario.robot.is_inert and (interactive or not runs_side_by_side(scenario)),
         rules=interactive,
         wide=is_wide(scenario),
     )
     text, _ = source_of(parts_of(scenario), layout)
-    limits = places_of(scenario.arena, footbot.RADIUS).shapes is not None  # of where robots start
+    limits = (
+        places_of(scenario.arena, scenario.robot.radius).shapes is not None
+    )  # of where robots start
     machine = (platform.python_version(), numba.__version__, *vector_settings(), str(limits), text)
     key = zlib.crc32("|".join(machine).encode(), compiled.VERSION)
     return cache.folder() / f"compiled-{key:08x}"

@@ -28,7 +28,8 @@ class Swarm:
     """Robots and objects of one simulation.
 
     Attributes:
-        blocks: Of `assembly.records.robot_type`, 64 robots each; the last one may hold fewer.
+        blocks: Of `assembly.records.robot_type`, 64 robots each; the last one may hold fewer. Of
+            bodies with inertia each block holds one, in its first lane.
         objects: float32, positions, shape (objects, 2).
         parts: What the scenario is composed of.
         steps: Control steps run so far.
@@ -37,14 +38,14 @@ class Swarm:
     def __init__(self, scenario: Scenario, rules: bool, wide: bool | None = None) -> None:
         """Make room; `rules` says that they are interpreted one by one."""
         parts = parts_of(scenario)
-        self.layout = Layout(
-            swarm=True, rules=rules, wide=is_wide(scenario) if wide is None else wide
-        )
+        inert = parts.body.is_inert
+        wide = not inert and (is_wide(scenario) if wide is None else wide)
+        self.layout = Layout(swarm=not inert, rules=rules, wide=wide)
         self._scenario = scenario
         self.parts = parts
         self._kernel = assemble(parts, self.layout)
         self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
-        blocks = -(-scenario.robots // LANES)
+        blocks = -(-scenario.robots // LANES) if self.layout.swarm else scenario.robots
         self.blocks = room(blocks, robot_type(parts, self.layout))
         self.objects = np.zeros((scenario.objects, 2), dtype=np.float32)
         self._grid = grid_for(scenario)
@@ -53,13 +54,14 @@ class Swarm:
     def start(self, seed: int, individual: int = 0, replicate: int = 0) -> None:
         """Place robots and objects."""
         began = start_of(self._scenario, np.array([(0, seed, individual, replicate)]), self.parts)
-        robots = np.zeros(len(self.blocks) * LANES, dtype=began.robots.dtype)
+        robots = np.zeros((len(self.blocks), LANES), dtype=began.robots.dtype)
         robots["cos"] = 1.0
-        robots[: self._scenario.robots] = began.robots[0]
+        at = self._places(slice(None))
+        robots[at] = began.robots[0]
         self.blocks[:] = np.zeros(1, dtype=self.blocks.dtype)
-        fill_robots(self.blocks, robots.reshape(-1, LANES))
-        exists = np.arange(len(robots)) < self._scenario.robots
-        self.blocks["exists"] = exists.reshape(-1, LANES)
+        fill_robots(self.blocks, robots)
+        if self.layout.swarm:
+            self.blocks["exists"][at] = 1
         self.objects[:] = began.objects[0]
         self.list_anew()
         self.steps = 0
@@ -86,7 +88,8 @@ class Swarm:
         while self.steps < end:
             left = end - self.steps
             arguments = (self._numbers, self.blocks, self.objects, *controller)
-            self.steps += self._kernel.run(*arguments, self._grid, self.steps, left)
+            search = self._grid if self.layout.swarm else 1
+            self.steps += self._kernel.run(*arguments, search, self.steps, left)
             if self.steps < end:
                 self._make_room(-int(self._grid.listed[0]))
 
@@ -101,21 +104,28 @@ class Swarm:
 
     def of_robots(self, name: str) -> npt.NDArray[Any]:
         """A field of all robots, shape (robots,)."""
+        if not self.layout.swarm:
+            return np.asarray(self.blocks[name][:, 0])
         values: npt.NDArray[Any] = self.blocks[name].reshape(-1)[: self._scenario.robots]
         return values
 
+    def _places(self, which: slice) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        """Block and lane of some robots."""
+        at = np.arange(self._scenario.robots)[which]
+        return (at // LANES, at % LANES) if self.layout.swarm else (at, np.zeros_like(at))
+
     def put(self, name: str, which: slice, values: npt.NDArray[Any]) -> None:
         """Set a field of some robots."""
-        at = np.arange(self._scenario.robots)[which]
-        self.blocks[name][at // LANES, at % LANES] = values
+        self.blocks[name][self._places(which)] = values
 
     def place_robot(self, i: int, x: float, y: float) -> None:
         """Put a robot somewhere."""
-        robot = self.blocks[i // LANES]
+        block, lane = (int(at[0]) for at in self._places(slice(i, i + 1)))
+        robot = self.blocks[block]
         for name, place in (("x", x), ("y", y)):
-            robot[name][i % LANES] = place
+            robot[name][lane] = place
             if self.layout.wide:
-                robot[f"low_{name}"][i % LANES] = place - float(robot[name][i % LANES])
+                robot[f"low_{name}"][lane] = place - float(robot[name][lane])
 
     def measured(self, name: str) -> float:
         """The sum of a measure over the robots."""

@@ -14,7 +14,6 @@ from geswarm.rules.model import CONTROL_STEP, RuleSet, Term, Value
 from geswarm.rules.names import require_known_names
 from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import Vocabulary
-from geswarm.sim import footbot
 from geswarm.sim.arena.places import is_in_area, nearest_free, nearest_in_source
 from geswarm.sim.batch import fitness_of
 from geswarm.sim.controllers.encoding import fails
@@ -191,8 +190,8 @@ class World:
         """Everything there is to see, as it is now."""
         swarm = self._swarm
         of_robots = swarm.of_robots
-        reach_x = self._scenario.arena.half_width - footbot.RADIUS
-        reach_y = self._scenario.arena.half_length - footbot.RADIUS
+        reach_x = self._scenario.arena.half_width - self._scenario.robot.radius
+        reach_y = self._scenario.arena.half_length - self._scenario.robot.radius
         instance = of_robots("behaviour")
         measures = self.measures
         return WorldState(
@@ -323,8 +322,9 @@ class World:
         """
         _require_place(i, self._scenario.robots, "robot", x, y)
         arena, robot = self._scenario.arena, slice(i, i + 1)
+        radius = self._scenario.robot.radius
         now = self._swarm.of_robots("x")[i].item(), self._swarm.of_robots("y")[i].item()
-        self._swarm.place_robot(i, *nearest_free(arena, (x, y), now))
+        self._swarm.place_robot(i, *nearest_free(arena, (x, y), now, radius))
         self._show_percepts(robot)
 
     def move_object(self, i: int, x: float, y: float) -> None:

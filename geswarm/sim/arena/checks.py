@@ -175,17 +175,17 @@ def _of_all(arena: Arena) -> Iterator[Problem]:
         yield ("start", "outline"), "lies outside the arena"
 
 
-def room_at_start(arena: Arena) -> int:
+def room_at_start(arena: Arena, radius: float = footbot.RADIUS) -> int:
     """About how many robots have room side by side where they start, of an arena that is right.
 
     Centres lie in the region of start, bodies up to a radius beside it.
     """
     start = arena.resolved(arena.start or arena.outline)
-    points, each = grid(start, arena.outline, footbot.RADIUS)
-    free = (distances(arena.outline, points) <= 0) & (distances(start, points) <= footbot.RADIUS)
+    points, each = grid(start, arena.outline, radius)
+    free = (distances(arena.outline, points) <= 0) & (distances(start, points) <= radius)
     for obstacle in arena.obstacles:
         free &= distances(obstacle, points) > 0
-    return int(free.sum() * each / (2.0 * footbot.RADIUS) ** 2)
+    return int(free.sum() * each / (2.0 * radius) ** 2)
 
 
 def has_room_for_objects(arena: Arena, margin: float) -> bool:

@@ -12,6 +12,8 @@ from geswarm.sim.arena.source_place import box_numbers, in_single, where_objects
 
 _SLACK = 1e-3
 """By which share of its radius a body may be pressed into a wall."""
+_GREY = {"black": 0.0, "white": 1.0}
+"""How bright a floor is, where it is not grey."""
 _ROUNDING = 4.0 * 2.0**-24
 """Of a coordinate in single precision, relative to it."""
 
@@ -36,8 +38,10 @@ def ground_numbers(arena: Arena, radius: float) -> dict[str, float]:
             numbers |= {f"wall{k}_{name}": value for name, value in wall._asdict().items()}
     for k, obstacle in enumerate(arena.obstacles):
         numbers |= _named(f"obstacle{k}", obstacle)
+    numbers["floor_grey"] = _GREY.get(arena.floor, 0.498)
     for k, patch in enumerate(arena.patches):
         numbers |= _named(f"patch{k}", arena.resolved(patch.shape))
+        numbers[f"patch{k}_grey"] = _GREY.get(patch.floor, 0.498)
     for k, light in enumerate(arena.lights):
         x, y = arena.place_of(light)
         place = {"x": x, "y": y, "height": light.height, "intensity": light.intensity}

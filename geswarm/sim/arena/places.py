@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim import footbot
 from geswarm.sim.arena.geometry import Extent, distances, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Point
 from geswarm.sim.arena.source_place import where_objects_lie
@@ -19,12 +18,12 @@ _STOPS = 512
 """Places between the one asked for and that where the robot is, the last of which is free."""
 
 
-def nearest_free(arena: Arena, wanted: Point, now: Point) -> Point:
+def nearest_free(arena: Arena, wanted: Point, now: Point, radius: float) -> Point:
     """A place for a robot: that asked for, or as far on the way there as walls allow.
 
     In a rectangle without obstacles it is the nearest one inside the walls.
     """
-    reach_x, reach_y = (half - footbot.RADIUS for half in (arena.half_width, arena.half_length))
+    reach_x, reach_y = (half - radius for half in (arena.half_width, arena.half_length))
     inside = (
         min(max(wanted[0], -reach_x), reach_x),
         min(max(wanted[1], -reach_y), reach_y),
@@ -32,14 +31,14 @@ def nearest_free(arena: Arena, wanted: Point, now: Point) -> Point:
     if isinstance(arena.outline, Box) and not arena.obstacles:
         return inside
     points = np.linspace(inside, now, _STOPS)
-    free = free_of(places_of(replace(arena, start=None), footbot.RADIUS), points)
+    free = free_of(places_of(replace(arena, start=None), radius), points)
     x, y = points[free.argmax()] if free.any() else now
     return float(x), float(y)
 
 
 def nearest_in_source(scenario: Scenario, wanted: Point) -> Point:
     """The nearest place where objects may lie."""
-    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
+    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach, scenario.robot.radius)
     place = where_objects_lie(scenario.arena, margin)
     assert place is not None, "there are no objects without a source"
     shape, (x, y) = place.shape, wanted

@@ -62,6 +62,15 @@ def _drawn_call(source: Source, update: Update, behaviour: Behaviour | None = No
     return source.call(update, **local)
 
 
+def go_on(source: Source) -> None:
+    """What behaviours note down in each step in which they are executed."""
+    for code, behaviour in enumerate(source.parts.behaviours):
+        if behaviour.goes_on:
+            with source.lanes():
+                source(f"happens = I({_which(source)} == I({code}))")
+                _update(source, behaviour.goes_on, behaviour)
+
+
 def effects(source: Source) -> None:
     """What happens to robots and objects; momentary registers fall back."""
     for effect in source.parts.effects:
@@ -195,38 +204,43 @@ def count(source: Source, measure: Measure, where: str | None, afresh: bool = Fa
 def move(source: Source) -> None:
     """Target of the behaviour, what steers all, wheels."""
     source("# Move: the behaviour's target and what steers all of them, by the wheels.")
-    paced = any(behaviour.paced for behaviour in source.parts.behaviours)
     with source.lanes():
         ground.remember(source)
         ground.prelude(source, *source.parts.behaviours, *source.parts.steering, moves=True)
-        source(f"behaviour = {_which(source)}")
-        for code, behaviour in enumerate(source.parts.behaviours):
-            results = f"to_x_{code}, to_y_{code}" + (f", pace_{code}" if behaviour.paced else "")
-            source(f"{results} = {_call(source, behaviour, behaviour)}")
-        last = len(source.parts.behaviours) - 1
-        chosen = ("to_x", "to_y", "pace") if paced else ("to_x", "to_y")
-        for code in range(last, -1, -1):
-            for name in chosen:
-                value = f"{name}_{code}"
-                if name == "pace" and not source.parts.behaviours[code].paced:
-                    value = "ONE"
-                choice = value if code == last else f"{value} if behaviour == I({code}) else {name}"
-                source(f"{name} = {choice}")
+        choose_target(source)
         for number, steering in enumerate(source.parts.steering):
             gain = source.number(steering.gain)
             source(f"by_x_{number}, by_y_{number} = {source.call(steering)}")
             source(
                 f"to_x = fma({gain}, by_x_{number}, to_x)\nto_y = fma({gain}, by_y_{number}, to_y)"
             )
-        _drive(source, paced)
+        _drive(source)
 
 
-def _drive(source: Source, paced: bool) -> None:
+def choose_target(source: Source) -> None:
+    """The target of the robot's behaviour, and its share of the highest speed if one has it."""
+    paced = any(behaviour.paced for behaviour in source.parts.behaviours)
+    source(f"behaviour = {_which(source)}")
+    for code, behaviour in enumerate(source.parts.behaviours):
+        results = f"to_x_{code}, to_y_{code}" + (f", pace_{code}" if behaviour.paced else "")
+        source(f"{results} = {_call(source, behaviour, behaviour)}")
+    last = len(source.parts.behaviours) - 1
+    chosen = ("to_x", "to_y", "pace") if paced else ("to_x", "to_y")
+    for code in range(last, -1, -1):
+        for name in chosen:
+            value = f"{name}_{code}"
+            if name == "pace" and not source.parts.behaviours[code].paced:
+                value = "ONE"
+            choice = value if code == last else f"{value} if behaviour == I({code}) else {name}"
+            source(f"{name} = {choice}")
+
+
+def _drive(source: Source) -> None:
     names = ("max_speed", "turn_gain", "wheel_base", "control_step")
     numbers = ", ".join(source.number(name) for name in names)
     source("cos, sin = robot.cos[lane], robot.sin[lane]")
     source(f"turned, way = wheels(to_x, to_y, cos, sin, {numbers})")
-    if paced:
+    if any(behaviour.paced for behaviour in source.parts.behaviours):
         source("turned, way = turned * pace, way * pace")
     turn = "turn_far" if source.layout.wide else "turn"
     source(f"cos, sin, unit = {turn}(cos, sin, turned)")

@@ -19,7 +19,7 @@ def decide(source: Source) -> None:
     else:
         _draw_from_table(source)
     if source.parts.arguments:
-        _look_up_arguments(source)
+        look_up_arguments(source)
 
 
 def _look_for_objects(source: Source) -> None:
@@ -150,7 +150,8 @@ def _interpret(source: Source) -> None:
             for sensor in source.parts.sensors:
                 reading = f"work.{sensor.name}_now[lane]"
                 source(f"active = I(active & {_accepts(sensor.name, reading, sensor.values)})")
-            source("active = I(active & robot.exists[lane])")
+            if source.layout.swarm:
+                source("active = I(active & robot.exists[lane])")
             source("work.active[lane], work.fired[lane] = active, I(0)\nsome = I(some | active)")
         with source.inside("if some and rule.enabled:"):
             with source.inside("for a in range(rule.first_action, rule.end_action):"):
@@ -199,11 +200,13 @@ def _count_decisions(source: Source) -> None:
             source("after = I(I(robot.behaviour[lane] * I(STATES)) + robot.state[lane])")
             source("outcome = I(I(after * I(2)) + work.restarts[lane])")
             source(f"work.place[lane] = U(I(work.memory[lane] * I({outcomes})) + outcome)")
-        with source.inside("for lane in range(LANES):"):
-            source("decisions[work.place[lane]] += robot.exists[lane]")
+        with source.lanes():
+            one = "robot.exists[lane]" if source.layout.swarm else "1"
+            source(f"decisions[work.place[lane]] += {one}")
 
 
-def _look_up_arguments(source: Source) -> None:
+def look_up_arguments(source: Source) -> None:
+    """Which behaviour an instance is, and with which arguments."""
     source("# Behaviours are instances: which one, with which arguments.")
     offset = "I(0)" if source.layout.rules else "I(group.instances[lane])"
     with source.lanes():

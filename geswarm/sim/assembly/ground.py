@@ -74,18 +74,30 @@ def expression(source: Source, name: str, robot: str, lane: str) -> str | None:
         return variable(name)
     x, y = f"{robot}.x[{lane}]", f"{robot}.y[{lane}]"
     if name == "floor":
-        colour = "I(0)"
-        for number, patch in enumerate(ground.patches):
-            if patch.colour >= 0:
-                here = _inside(source, f"patch{number}", patch.form, x, y)
-                colour = f"(I({patch.colour}) if {here} != I(0) else {colour})"
-        return colour
+        return _topmost(source, x, y, [f"I({patch.colour})" for patch in ground.patches], "I(0)")
     inside = [
         _inside(source, f"patch{number}", patch.form, x, y)
         for number, patch in enumerate(ground.patches)
         if patch.area == name.removeprefix("in_")
     ]
     return _folded("|", inside)
+
+
+def _topmost(source: Source, x: str, y: str, values: list[str], beside: str) -> str:
+    """The value of the topmost patch at a place that is painted, or that of the floor beside."""
+    value = beside
+    for number, patch in enumerate(source.parts.ground.patches):
+        if patch.colour >= 0:
+            here = _inside(source, f"patch{number}", patch.form, x, y)
+            value = f"({values[number]} if {here} != I(0) else {value})"
+    return value
+
+
+def grey_level(source: Source, x: str, y: str) -> str:
+    """How bright the floor is at a place, from 0 to 1."""
+    ground = source.parts.ground
+    values = [source.number(f"patch{number}_grey") for number in range(len(ground.patches))]
+    return _topmost(source, x, y, values, source.number("floor_grey"))
 
 
 def _inside(source: Source, prefix: str, form: Form, x: str, y: str) -> str:
@@ -219,7 +231,7 @@ def _obstacles(source: Source) -> Iterator[str]:
         yield f"geometry.{form.kind}(x, y, {numbers})"
 
 
-def _in_the_way(source: Source) -> Iterator[str]:
+def in_the_way(source: Source) -> Iterator[str]:
     """Surfaces that robots do not get through, those of a box or disc outline left out."""
     ground = source.parts.ground
     for k in range(ground.sides):
@@ -267,7 +279,7 @@ def keep_inside(source: Source) -> None:
 def _look_for_walls(source: Source) -> None:
     """Whether some robot is so near to something that it may have to be pushed or go back."""
     radius = source.number("radius")
-    gaps = [f"{surface}[0]" for surface in _in_the_way(source)]
+    gaps = [f"{surface}[0]" for surface in in_the_way(source)]
     if source.parts.ground.outline == "box":
         gaps.append(f"geometry.box_gap(x, y, {_extent(source)})")
     elif source.parts.ground.outline == "disc":
@@ -308,7 +320,7 @@ def _push_inside(source: Source) -> None:
     Each push waits for the one before it. In short loops the processor does several vectors of
     lanes at once meanwhile.
     """
-    radius, surfaces = source.number("radius"), list(_in_the_way(source))
+    radius, surfaces = source.number("radius"), list(in_the_way(source))
     for begin in range(0, len(surfaces), _AT_ONCE):
         with source.lanes():
             source("x, y = robot.x[lane], robot.y[lane]")
@@ -335,7 +347,7 @@ def _go_back(source: Source) -> None:
         radius = source.number("arena_radius")
         source(f"gap, normal_x, normal_y = geometry.round_wall(x, y, {radius})")
         source("goes_back = I(gap < clear)")
-    for surface in _in_the_way(source):
+    for surface in in_the_way(source):
         source(f"gap, normal_x, normal_y = {surface}\ngoes_back = I(goes_back | I(gap < clear))")
     if ground.may_be_crossed:
         _look_how_far(source)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from geswarm.sim.assembly import acting, deciding, measuring, meeting, records
+from geswarm.sim.assembly import acting, deciding, inert, measuring, meeting, records
 from geswarm.sim.assembly.loading import load
 from geswarm.sim.assembly.source import Layout, Source
 from geswarm.sim.kernels.single import F, I, U
@@ -25,6 +25,12 @@ from geswarm.sim.kernels.scratch import on_the_stack
 from geswarm.sim.kernels.single import ONE, TWO, ZERO, F, I, U, fma, inverse_root
 from geswarm.sim.kernels.state import LANES
 from geswarm.sim.kernels.table import slot_of
+"""
+_OF_INERT_BODIES = """\
+from geswarm.sim.kernels import epuck
+from geswarm.sim.kernels.contact import nearer, settle
+from geswarm.sim.kernels.draws import E_PUCK, MESSAGE, dice_of, thrown
+from geswarm.sim.kernels.single import above_zero
 """
 _SEARCH = {
     False: "nearest import FAR, distance2",
@@ -115,6 +121,8 @@ def _imports(parts: Parts, layout: Layout) -> str:
     turn = (f"advance_exactly, {push}, turn_far, wheels", f"{push}, turn, wheels")
     search = _SEARCH[layout.swarm]
     lines = _IMPORTS.format(motion=turn[0 if layout.wide else 1], search=search)
+    if parts.body.is_inert:
+        lines += _OF_INERT_BODIES
     modules = component_modules(parts)
     return lines + "".join(f"import {module}\n" for module in modules)
 
@@ -130,7 +138,9 @@ def _record(source: Source, name: str, fields: records.Fields) -> None:
     """A type of record that the kernel has for itself."""
     letters: dict[type, str] = {F: "F", I: "I", U: "U"}
     with source.inside(f"{name} = np.dtype(["):
-        source("\n".join(f'("{field}", {letters[kind]}, LANES),' for field, kind in fields.items()))
+        for field, each in fields.items():
+            kind, shape = each if isinstance(each, tuple) else (each, "LANES")
+            source(f'("{field}", {letters[kind]}, {shape}),')
     source("], align=True)")
 
 
@@ -140,14 +150,22 @@ def _steps(source: Source) -> None:
         sides = ", ".join(f"objects_{side}" for side in ("west", "south", "east", "north"))
         source(f"sort_objects(objects, grid, {sides})")
     with source.inside("for step in range(first, first + steps):"):
-        meeting.sums(source)
-        with source.inside("for i in range(len(robots)):"):
-            source("robot = robots[i]")
-            deciding.decide(source)
-            acting.start_afresh(source)
-            acting.effects(source)
-            acting.move(source)
-        meeting.collide(source)
+        if source.parts.body.is_inert:
+            inert.step(source)
+        else:
+            _step(source)
         measuring.measures(source, "step")
     measuring.measures(source, "end")
     source("return steps")
+
+
+def _step(source: Source) -> None:
+    """A step of robots that move at once."""
+    meeting.sums(source)
+    with source.inside("for i in range(len(robots)):"):
+        source("robot = robots[i]")
+        deciding.decide(source)
+        acting.start_afresh(source)
+        acting.effects(source)
+        acting.move(source)
+    meeting.collide(source)

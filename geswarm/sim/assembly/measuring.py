@@ -8,7 +8,7 @@ from geswarm.sim.assembly import ground
 from geswarm.sim.assembly.acting import count
 from geswarm.sim.assembly.source import Source, plus, zero
 from geswarm.sim.kernels.single import I
-from geswarm.sim.terms.component import SUM, Component, Measure, SwarmMeasure
+from geswarm.sim.terms.component import SUM, CellMeasure, Component, Measure, SwarmMeasure
 
 
 def measures(source: Source, at: str) -> None:
@@ -26,7 +26,9 @@ def measures(source: Source, at: str) -> None:
                     ground.prelude(source, measure)
                     count(source, measure, exists, afresh=at == "end")
     for each in source.parts.measures:
-        if isinstance(each, SwarmMeasure) and each.at == at:
+        if isinstance(each, CellMeasure) and each.at == at:
+            _of_cells(source, each)
+        elif isinstance(each, SwarmMeasure) and each.at == at:
             _of_the_swarm(source, each)
 
 
@@ -53,6 +55,24 @@ def _of_the_swarm(source: Source, measure: SwarmMeasure) -> None:
     source("robot = robots[0]")
     with source.lanes():
         _keep(source, measure, {name: f"work.{name}[lane]" for name in needs})
+
+
+def _of_cells(source: Source, measure: CellMeasure) -> None:
+    """The cells that robots are in are visited; the ages of all cells are added up."""
+    source(f"# Measure {measure.name}, of cells.")
+    swarm = source.layout.swarm
+    of_all = "0" if swarm else "lane"
+    with source.inside("for i in range(len(robots)):"):
+        source("robot = robots[i]")
+        with source.inside(f"for lane in range({'LANES' if swarm else 'width'}):"):
+            source(f"cell = {source.call(measure)}")
+            with source.inside("if robot.exists[lane]:" if swarm else "if True:"):
+                visit = f"robots[0].visits[cell, {of_all}]"
+                source(f"robots[0].visits_sum[{of_all}] += I(step) - {visit}\n{visit} = step")
+    source("robot = robots[0]")
+    with source.inside(f"for lane in range({'1' if swarm else 'width'}):"):
+        ages = f"I(I(step * {measure.cells}) - robot.visits_sum[lane])"
+        source(f"robot.{measure.name}[lane] = I(robot.{measure.name}[lane] + {ages})")
 
 
 def _sums_of_blocks(source: Source, kinds: dict[str, type]) -> None:

@@ -7,18 +7,20 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim.assembly import ground
+from geswarm.sim.assembly import ground, senses
 from geswarm.sim.assembly.source import Layout
+from geswarm.sim.kernels import contact
 from geswarm.sim.kernels.single import F, I, U
 from geswarm.sim.kernels.state import LANES
-from geswarm.sim.terms.component import OTHER
+from geswarm.sim.terms.component import OTHER, CellMeasure
 from geswarm.sim.terms.parts import Parts
 
 Records: TypeAlias = npt.NDArray[np.void]
 Record: TypeAlias = Any
-Fields: TypeAlias = dict[str, type]
-"""Kinds of numbers by name, LANES of each."""
+Fields: TypeAlias = dict[str, type | tuple[type, tuple[int, ...]]]
+"""Kinds of numbers by name, LANES of each, or an array of a shape."""
 
+_OF_NEAR_PAIRS = [f"pair_{name}" for name in contact.OF_NEAR_PAIRS]
 _LINE = 64
 """Bytes of a line of the cache."""
 
@@ -76,7 +78,22 @@ def _robot_fields(parts: Parts, layout: Layout) -> Fields:
         **dict.fromkeys(("behaviour", "state"), I),
         **dict.fromkeys(("key_low", "key_high"), U),
         **parts.own_fields,
+        **_of_inert_bodies(parts),
+        **_of_cells(parts),
     }
+
+
+def _of_inert_bodies(parts: Parts) -> Fields:
+    if not parts.body.is_inert:
+        return {}
+    rows = {name: (F, (number, LANES)) for name, number in senses.ROWS.items()}
+    return {**senses.fields(parts.ground.lights), **rows}
+
+
+def _of_cells(parts: Parts) -> Fields:
+    """When each cell was visited last; that of the first robot is for all."""
+    cells = [measure.cells for measure in parts.measures if isinstance(measure, CellMeasure)]
+    return {"visits_sum": I, "visits": (I, (max(cells), LANES))} if cells else {}
 
 
 def room(count: int, dtype: np.dtype[np.void]) -> Records:
@@ -107,6 +124,10 @@ def work_fields(parts: Parts, layout: Layout) -> Fields:
     if layout.rules:
         fields |= dict.fromkeys(("active", "fired", "memory"), I)
         fields |= {f"{sensor.name}_now": I for sensor in parts.sensors}
+    if parts.body.is_inert:
+        fields |= {"near": I, **dict.fromkeys(("dx", "dy", "per_d"), F), **_near_robots()}
+        pairs = {**dict.fromkeys(("one", "two"), I), **dict.fromkeys(_OF_NEAR_PAIRS, F)}
+        fields |= {name: (kind, (contact.MOST_PAIRS,)) for name, kind in pairs.items()}
     return fields
 
 
@@ -120,6 +141,12 @@ def mine_fields(parts: Parts, layout: Layout) -> Fields:
     return {name: kind for name, kind in _robot_fields(parts, layout).items() if name in named}
 
 
+def _near_robots() -> dict[str, type]:
+    """What `contact.settle` knows of each robot of one lane that may touch something."""
+    walls = [f"wall{number}_{name}" for number in range(2) for name in contact.OF_A_WALL]
+    return {"number": I, "walled": I, **dict.fromkeys((*contact.OF_THE_NEAR, *walls), F)}
+
+
 OBJECT = np.dtype([("x", F, LANES), ("y", F, LANES)])
 """The object of one number in 64 simulations."""
 
@@ -128,4 +155,7 @@ GROUP = np.dtype([("codes", U, LANES), ("rows", U, LANES), ("instances", U, LANE
 
 
 def _in_lanes(fields: Fields) -> np.dtype[np.void]:
-    return np.dtype([(name, kind, LANES) for name, kind in fields.items()], align=True)
+    shaped = {
+        name: each if isinstance(each, tuple) else (each, LANES) for name, each in fields.items()
+    }
+    return np.dtype([(name, kind, shape) for name, (kind, shape) in shaped.items()], align=True)

@@ -120,7 +120,8 @@ class Source:
     @property
     def fields(self) -> frozenset[str]:
         """Fields of a robot that components may name."""
-        return frozenset(CORE) | frozenset(self.parts.own_fields)
+        senses = self.parts.body.senses
+        return frozenset((*CORE, *self.parts.own_fields, *senses))
 
     def is_symmetric(self, one: Sum) -> bool:
         """Whether a sum's function names nothing that differs between the two of a pair."""

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import footbot
 from geswarm.sim.arena.numbers import ground_numbers, object_numbers
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.kernels.pairs import Grid
@@ -28,9 +27,11 @@ _STEPS_OF_A_LIST = 20
 def scenario_numbers(scenario: Scenario) -> dict[str, float]:
     """Everything that components may name; lengths in metres, times in seconds."""
     sight, skin = _sight(scenario)
-    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
+    body = scenario.robot
+    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach, body.radius)
     own = {name: float(getattr(scenario, name)) for name in _OWN}
     return {
+        **dict(body.numbers),
         **dict(scenario.numbers),
         **own,
         "walk_min": scenario.random_walk[0],
@@ -38,10 +39,10 @@ def scenario_numbers(scenario: Scenario) -> dict[str, float]:
         "avoidance_range": _avoidance_range(scenario),
         "half_width": scenario.arena.half_width,
         "half_length": scenario.arena.half_length,
-        "radius": footbot.RADIUS,
-        "wheel_base": footbot.WHEEL_BASE,
+        "radius": body.radius,
+        "wheel_base": body.wheel_base,
         "control_step": CONTROL_STEP,
-        **ground_numbers(scenario.arena, footbot.RADIUS),
+        **ground_numbers(scenario.arena, body.radius),
         **object_numbers(scenario.arena, margin),
         "sight": sight,
         "skin": skin,
@@ -88,7 +89,7 @@ def fails(scenario: Scenario, parts: Parts) -> list[float]:
 
 def is_wide(scenario: Scenario) -> bool:
     """Whether single precision needs help: a large arena or slow robots, or turns of any angle."""
-    turn = min(scenario.turn_gain * np.pi, 2.0 * scenario.max_speed / footbot.WHEEL_BASE)
+    turn = min(scenario.turn_gain * np.pi, 2.0 * scenario.max_speed / scenario.robot.wheel_base)
     extent = max(scenario.width, scenario.length)
     advance = scenario.max_speed * CONTROL_STEP
     return bool(
@@ -100,8 +101,9 @@ def is_wide(scenario: Scenario) -> bool:
 def _sight(scenario: Scenario) -> tuple[float, float]:
     """How far robots must know of each other, and the margin of the lists of pairs (m)."""
     step = scenario.max_speed * CONTROL_STEP
-    touch = 2.0 * (footbot.RADIUS + step)
-    body = 2.0 * footbot.RADIUS + scenario.proximity_range
+    radius = scenario.robot.radius
+    touch = 2.0 * (radius + step)
+    body = 2.0 * radius + scenario.proximity_range
     sight = max(scenario.rab_range, _avoidance_range(scenario), body, 2.0 * touch)
     if scenario.robots <= _ALL_PAIRS_UP_TO:
         return sight, _ALL_PAIRS_MARGIN

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim import footbot
 from geswarm.sim.arena.start_places import places_of, require_room
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.compiled import begin
@@ -49,12 +48,13 @@ def start_of(scenario: Scenario, simulations: npt.NDArray[np.int64], parts: Part
         GroundError: The robots do not fit where they start.
     """
     arena, robots, (walk_min, walk_max) = scenario.arena, scenario.robots, scenario.random_walk
-    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach)
-    places = places_of(arena, footbot.RADIUS, margin if scenario.objects else None)
+    radius = scenario.robot.radius
+    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach, radius)
+    places = places_of(arena, radius, margin if scenario.objects else None)
     beginning = Beginning(parts.first_instance, parts.first_state, walk_min, walk_max, CONTROL_STEP)
 
     def spots() -> Array:
-        return require_room(arena, footbot.RADIUS, robots)
+        return require_room(arena, radius, robots)
 
     return begun(places, beginning, simulations, (robots, scenario.objects), spots)
 

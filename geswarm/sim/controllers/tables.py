@@ -15,6 +15,8 @@ from geswarm.rules.names import require_known_names
 from geswarm.rules.space import Space
 from geswarm.sim.assembly.records import GROUP
 from geswarm.sim.compiled import compile_tables
+from geswarm.sim.controllers import machines
+from geswarm.sim.controllers.machines import Machine
 from geswarm.sim.controllers.program import Instances, encode, encoded
 from geswarm.sim.controllers.spaces import percepts_of_codes
 from geswarm.sim.kernels.table import (
@@ -28,7 +30,7 @@ from geswarm.sim.kernels.table import (
 )
 from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
 
-Controller: TypeAlias = RuleSet | ControlTable
+Controller: TypeAlias = RuleSet | ControlTable | Machine
 
 _of_thread = threading.local()
 
@@ -78,12 +80,16 @@ def compile_controllers(
     for each in controllers:
         if isinstance(each, RuleSet):
             require_known_names(each, parts.vocabulary)
-    if len(short) == len(controllers):
+    machined = [each for each in controllers if isinstance(each, Machine)]
+    if machined:
+        instances, tables = _of_machines(machined, len(controllers), fails, parts)
+    elif len(short) == len(controllers):
         instances = [Instances.of(each, parts) for each in short]
         tables = _compiled(encode(short, instances, fails, parts), _dense([], parts), parts)
     else:
         instances = [Instances.of(RuleSet(), parts)] * len(controllers)
-        dense = _dense([_exact(each, parts) for each in controllers], parts)
+        known = [each for each in controllers if not isinstance(each, Machine)]
+        dense = _dense([_exact(each, parts) for each in known], parts)
         tables = _compiled(_nothing_but(instances, fails, parts), dense, parts)
     sizes = [len(own.terms) for own in instances]
     return Controllers(
@@ -108,7 +114,23 @@ def no_controllers(parts: Parts) -> Controllers:
     )
 
 
-def _exact(controller: Controller, parts: Parts) -> ControlTable:
+def _of_machines(
+    given: Sequence[Machine], number: int, fails: Sequence[float], parts: Parts
+) -> tuple[list[Instances], Tables]:
+    """Behaviours and tables of state machines."""
+    if len(given) < number:
+        raise ValueError("expected either state machines or rule sets, got both")
+    instances = [Instances(machines.instances_of(each, parts), parts) for each in given]
+    most = max(len(own.terms) for own in instances)
+    dense = np.stack([machines.outcomes_of(each, parts, most) for each in given])
+    padded = [
+        Instances((*own.terms, *own.terms[:1] * (most - len(own.terms))), parts)
+        for own in instances
+    ]
+    return padded, _compiled(_nothing_but(padded, fails, parts), dense, parts)
+
+
+def _exact(controller: RuleSet | ControlTable, parts: Parts) -> ControlTable:
     """The exact table of a rule set that is too long for the kernel."""
     if parts.arguments or parts.counter is not None:
         what = f"{len(controller.rules)} rules" if isinstance(controller, RuleSet) else "a table"

@@ -15,6 +15,8 @@ No two decisions of a robot share a purpose within a step, so no two decisions e
 | START_WALK_TIME | robot | 0             | how long that heading is kept                        |
 | START_OBJECT_X, _Y | arena | object number | where an object lies at the start                 |
 | FIRST_ACTION + a | robot | control step  | whether action a of the rule set happens             |
+| E_PUCK + n      | robot | control step  | noise of an e-puck's wheels and sensors              |
+| MESSAGE + j     | robot | control step  | which messages between it and e-puck j are lost      |
 
 The arena's key is that of a robot numbered one past the last.
 """
@@ -31,6 +33,7 @@ ZONE_MISS, OUTCOME, WALK_HEADING, WALK_TIME, OBJECT_X, OBJECT_Y = 0, 1, 2, 3, 4,
 START_X, START_Y, START_HEADING, START_WALK, START_WALK_TIME = 6, 7, 8, 9, 10
 START_OBJECT_X, START_OBJECT_Y = 11, 12
 FIRST_ACTION = 16
+E_PUCK, MESSAGE = 1 << 20, 1 << 21
 
 
 @inlined
@@ -63,9 +66,20 @@ def make_key(seed: int, individual: int, replicate: int, robot: int) -> np.uint6
 @inlined
 def draw_bits(low: np.uint32, high: np.uint32, step: int, purpose: int) -> Any:
     """32 random bits; `low` and `high` are the halves of a key, the rest as for `draw`."""
+    return thrown(dice_of(low, high, step), purpose)
+
+
+@inlined
+def dice_of(low: np.uint32, high: np.uint32, step: int) -> Any:
+    """What all that is drawn for a robot in a step has in common, see `thrown`."""
     h = _mix(np.uint32(np.uint32(np.uint32(step) * np.uint32(0x9E3779B9)) + low))
-    h = np.uint32(h ^ high)
-    return _mix(np.uint32(h + np.uint32(np.uint32(purpose) * np.uint32(0x85EBCA6B))))
+    return np.uint32(h ^ high)
+
+
+@inlined
+def thrown(dice: np.uint32, purpose: int) -> Any:
+    """The random bits of `draw_bits`, for one purpose."""
+    return _mix(np.uint32(dice + np.uint32(np.uint32(purpose) * np.uint32(0x85EBCA6B))))
 
 
 @called

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from geswarm.rules.vocabulary import FORAGING, Vocabulary
 from geswarm.sim.library.terms import BUILT_IN
 from geswarm.sim.library.vocabulary import parts_of
 from geswarm.sim.scenario.model import Scenario
+from geswarm.sim.terms import automode
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
@@ -54,6 +55,7 @@ class Entry:
         unit: Of a measure.
         about: What it does, in a sentence; may be empty.
         source: Where it is defined: file and line, or a section of the paper.
+        body: The robots that it is for; empty if it is for all.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Entry:
     unit: str = ""
     about: str = ""
     source: str = ""
+    body: str = ""
 
     @property
     def written(self) -> str:
@@ -120,11 +123,11 @@ def _library() -> Iterator[Entry]:
     ):
         equal = ("==", "!=")
         yield Entry(name, "precondition", (), words, values, equal, "", *_MADE[made])
-    yield from (_percept(each, None) for each in BUILT_IN.percepts.values())
-    yield from (_behaviour(name, each) for name, each in BUILT_IN.behaviours.items())
-    yield from (_register(each) for each in BUILT_IN.registers.values())
+    yield from _of_bodies("percepts", lambda _, each: _percept(each, None))
+    yield from _of_bodies("behaviours", _behaviour)
+    yield from _of_bodies("registers", lambda _, each: _register(each))
     yield from _registers_to_declare()
-    yield from (_measure(each) for each in BUILT_IN.measures.values())
+    yield from _of_bodies("measures", lambda _, each: _measure(each))
     for name, unit, made in (
         ("on_<area>", "robot-steps", "on"),
         ("larger_group", "robot-steps", "larger_group"),
@@ -132,6 +135,19 @@ def _library() -> Iterator[Entry]:
     ):
         about, source = _MADE[made]
         yield Entry(name, "measure", unit=unit, about=about, source=source)
+
+
+def _of_bodies(kind: str, entry: Callable[[str, Any], Entry]) -> Iterator[Entry]:
+    """The terms of a kind, each once, with the body that it is for."""
+    lists = {body: getattr(terms, kind) for body, terms in BUILT_IN.items()}
+    told: list[object] = []
+    for body, terms in lists.items():
+        for name, each in terms.items():
+            if each in told:
+                continue
+            told.append(each)
+            for_all = all(each in others.values() for others in lists.values())
+            yield replace(entry(name, each), body="" if for_all else body)
 
 
 def _registers_to_declare() -> Iterator[Entry]:
@@ -220,7 +236,7 @@ def _made(component: Component) -> tuple[str, str]:
 
 def _source(name: str, component: Component | None) -> str:
     """Where a term comes from; a file of GESwarm's is named from its package on."""
-    if name in _OF_THE_PAPER:
+    if name in _OF_THE_PAPER and (component is None or component.module != automode.__name__):
         return _OF_THE_PAPER[name]
     if component is None:
         return "declared by the scenario"

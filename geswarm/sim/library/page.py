@@ -38,6 +38,7 @@ def _about(entry: Entry) -> str:
     parts = [entry.about, ", ".join(f"“{words}”" for words in entry.words)]
     parts += [_argument(each) for each in entry.arguments]
     parts += [_compared(entry), f"In {entry.unit}." if entry.unit else ""]
+    parts += [f"For the {entry.body}."] if entry.body else []
     return "<br>".join(part.replace("|", "\\|") for part in parts if part)
 
 

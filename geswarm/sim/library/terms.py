@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import pkgutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
 
 from geswarm.sim import terms
-from geswarm.sim.terms.component import Behaviour, Measure, Percept, Register, Sum, SwarmMeasure
+from geswarm.sim.bodies import BODIES, Body
+from geswarm.sim.terms.component import (
+    Behaviour,
+    CellMeasure,
+    Measure,
+    Percept,
+    Register,
+    Sum,
+    SwarmMeasure,
+)
+
+_MEASURES = (Measure, SwarmMeasure, CellMeasure)
 
 
 @dataclass(frozen=True)
@@ -28,7 +39,7 @@ class Terms:
     percepts: dict[str, Percept] = field(default_factory=dict)
     behaviours: dict[str, Behaviour] = field(default_factory=dict)
     registers: dict[str, Register] = field(default_factory=dict)
-    measures: dict[str, Measure | SwarmMeasure] = field(default_factory=dict)
+    measures: dict[str, Measure | SwarmMeasure | CellMeasure] = field(default_factory=dict)
     sums: tuple[Sum, ...] = ()
 
     @classmethod
@@ -40,14 +51,16 @@ class Terms:
             behaviours=_by_name([each for each in found if isinstance(each, Behaviour)]),
             registers={each.word.name: each for each in found if isinstance(each, Register)},
             measures={
-                each.name: each for each in found if isinstance(each, Measure | SwarmMeasure)
+                each.name: each
+                for each in found
+                if isinstance(each, Measure | SwarmMeasure | CellMeasure)
             },
             sums=tuple(each for each in found if isinstance(each, Sum)),
         )
 
 
 def _declared(module: ModuleType) -> list[object]:
-    kinds = Percept | Behaviour | Register | Measure | SwarmMeasure | Sum
+    kinds = (Percept, Behaviour, Register, Sum, *_MEASURES)
     return [each for each in vars(module).values() if isinstance(each, kinds)]
 
 
@@ -61,8 +74,12 @@ def _by_name(behaviours: list[Behaviour]) -> dict[str, Behaviour]:
     return named
 
 
-BUILT_IN = Terms.of(
-    import_module(f"{terms.__name__}.{each.name}") for each in pkgutil.iter_modules(terms.__path__)
-)
-"""Those of all modules in `geswarm.sim.terms`; `ON_<AREA>`, `FLOOR` and measures such as
-`on_<area>` are made for each arena."""
+def _built_in(body: Body) -> Terms:
+    names = [f"{terms.__name__}.{each.name}" for each in pkgutil.iter_modules(terms.__path__)]
+    modules = [import_module(name) for name in names]
+    return Terms.of(each for each in modules if getattr(each, "BODY", body) is body)
+
+
+BUILT_IN: Mapping[str, Terms] = {name: _built_in(body) for name, body in BODIES.items()}
+"""By body, those of the modules in `geswarm.sim.terms` that are for it (`BODY`) or for any;
+`ON_<AREA>`, `FLOOR` and measures such as `on_<area>` are made for each arena."""

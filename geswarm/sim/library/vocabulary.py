@@ -18,12 +18,13 @@ from geswarm.sim.arena.geometry import overlap
 from geswarm.sim.arena.model import Arena, HalfPlane, Plain
 from geswarm.sim.assembly.kernel import source_of
 from geswarm.sim.assembly.source import Layout
+from geswarm.sim.bodies import Body
 from geswarm.sim.controllers.encoding import numbers_by_name
 from geswarm.sim.library.own_terms import load_own_terms
 from geswarm.sim.library.terms import BUILT_IN, Terms
 from geswarm.sim.library.vetting import own_components, require_sound
 from geswarm.sim.scenario.model import Scenario
-from geswarm.sim.terms import avoidance, objects
+from geswarm.sim.terms import automode, avoidance, objects
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
@@ -53,6 +54,7 @@ class Design:
         probabilities: Of p, that grammar and editor offer.
         measures: Names.
         ground: The form of the arena.
+        body: The kind of robot.
         colours: Of the floor.
         apart: Pairs of areas that do not overlap.
         objects: Whether there are any.
@@ -67,6 +69,7 @@ class Design:
     probabilities: tuple[float, ...]
     measures: tuple[str, ...]
     ground: Ground
+    body: Body
     colours: tuple[str, ...]
     apart: tuple[tuple[str, str], ...]
     objects: bool
@@ -84,6 +87,7 @@ class Design:
             probabilities=scenario.probabilities,
             measures=scenario.measures,
             ground=Ground.of(scenario.arena),
+            body=scenario.robot,
             colours=scenario.arena.colours,
             apart=tuple(_areas_apart(scenario.arena)),
             objects=scenario.objects > 0,
@@ -169,6 +173,8 @@ def _parts(design: Design) -> Parts:
     sensors = dict.fromkeys(each.sensor for each in percepts)
     sensors |= dict.fromkeys(each.seen_by for each in registers if each.seen_by)
     effects: tuple[Effect, ...] = (objects.drop, objects.pick_up) if design.objects else ()
+    if automode.delivered.name in design.measures:
+        effects = (*effects, automode.fetch, automode.deliver)
     vocabulary = _vocabulary(design, percepts, behaviours, registers)
     plain = {each.word.name: each for each in behaviours if not each.arguments}
     first = plain.get(design.initial_behaviour)
@@ -186,9 +192,10 @@ def _parts(design: Design) -> Parts:
         behaviours=behaviours,
         first=first,
         ground=design.ground,
+        body=design.body,
         registers=registers,
-        sums=(*BUILT_IN.sums, *own.sums),
-        steering=(avoidance.avoid,),
+        sums=() if design.body.is_inert else (*BUILT_IN[design.body.name].sums, *own.sums),
+        steering=() if design.body.is_inert else (avoidance.avoid,),
         effects=effects,
         measures=tuple(measures_of(design, own)),
     )
@@ -226,16 +233,17 @@ def _pick(
 
 def behaviours_of(design: Design, own: Terms) -> Iterator[Behaviour]:
     """The behaviours on offer; raises TermError at one that is not known."""
-    return (
-        _pick("behaviour", name, BUILT_IN.behaviours, own.behaviours) for name in design.behaviours
-    )
+    known = BUILT_IN[design.body.name].behaviours
+    for name in design.behaviours:
+        yield _pick("behaviour", name, known, own.behaviours)
 
 
 def percepts_of(design: Design, own: Terms) -> Iterator[Percept]:
     """The percepts on offer; raises TermError at one that is not known."""
-    made = dict(_made_percepts(design))
+    known = BUILT_IN[design.body.name].percepts
+    made = {} if design.body.is_inert else dict(_made_percepts(design))
     for name in design.preconditions:
-        yield made.get(name) or _pick("precondition", name, BUILT_IN.percepts, own.percepts, made)
+        yield made.get(name) or _pick("precondition", name, known, own.percepts, made)
 
 
 def _made_percepts(design: Design) -> Iterator[tuple[str, Percept]]:
@@ -261,12 +269,13 @@ def _bit(at: int) -> Callable[[int], Value]:
 
 def registers_of(design: Design, own: Terms) -> Iterator[Register]:
     """The internal states on offer; raises TermError at one that is not known."""
+    known = BUILT_IN[design.body.name].registers
     for declared in design.registers:
         name, _, values = declared.partition("(")
-        if values or (name not in BUILT_IN.registers and name not in own.registers):
+        if values or (name not in known and name not in own.registers):
             yield _declared(name.strip(), values.rstrip(") "), declared)
         else:
-            yield _pick("register", name, BUILT_IN.registers, own.registers)
+            yield _pick("register", name, known, own.registers)
 
 
 def _declared(name: str, values: str, declared: str) -> Register:
@@ -302,10 +311,14 @@ def measures_of(design: Design, own: Terms) -> Iterator[Measure | SwarmMeasure]:
         made["max_group"] = SwarmMeasure(
             None, called="max_group", given=sums, at="end", unit="robots"
         )
+    known = BUILT_IN[design.body.name].measures
     for name in design.measures:
-        found = made.get(name) or _pick("measure", name, BUILT_IN.measures, own.measures, made)
-        if isinstance(found, Measure) and isinstance(found.at, Effect) and not design.objects:
+        found = made.get(name) or _pick("measure", name, known, own.measures, made)
+        of_objects = isinstance(found, Measure) and found.at in (objects.drop, objects.pick_up)
+        if of_objects and not design.objects:
             raise TermError(f"{name} counts objects, but the scenario has none", name)
+        if found is automode.delivered and not {"food", "nest"} <= set(design.areas):
+            raise TermError(f"{name} counts items, but there are no areas food and nest", name)
         yield found
 
 

@@ -12,6 +12,7 @@ from geswarm.sim import footbot
 from geswarm.sim.arena import checks as arena_checks
 from geswarm.sim.arena.checks import Problem
 from geswarm.sim.arena.model import Arena, Band, Box
+from geswarm.sim.bodies import BODIES
 from geswarm.sim.parameter import Parameter, listed, shown
 from geswarm.sim.scenario.objective import OF_THE_RUN
 from geswarm.sim.scenario.words import word_problems
@@ -110,11 +111,29 @@ def _misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> Iterator
         yield from _zone_misfits(of_arena)
     yield from _object_misfits(values, of_arena)
     yield from _start_misfits(values, of_arena)
-    if not arena.banded and values["max_speed"] * CONTROL_STEP >= footbot.RADIUS:
-        most = footbot.RADIUS / CONTROL_STEP
+    radius = BODIES[values["body"]].radius
+    if not arena.banded and values["max_speed"] * CONTROL_STEP >= radius:
+        most = radius / CONTROL_STEP
         message = f"expected less than {most:g} m/s, or robots get through walls and obstacles"
         yield ("max_speed", "outline", "obstacles"), f"{message}, got {shown(values['max_speed'])}"
+    yield from _body_misfits(values)
     yield from _term_misfits(values)
+
+
+_MOST_INERT, _WIDEST_OF_INERT = 64, 100.0
+
+
+def _body_misfits(values: Mapping[str, Any]) -> Iterator[Problem]:
+    """What bodies with inertia cannot do yet."""
+    if not BODIES[values["body"]].is_inert:
+        return
+    if values["objects"]:
+        yield ("objects", "body"), f"{values['body']}s carry none, expected 0"
+    if values["robots"] > _MOST_INERT:
+        message = f"expected at most {_MOST_INERT} {values['body']}s, got {values['robots']}"
+        yield ("robots", "body"), message
+    if max(values["arena"].half_width, values["arena"].half_length) > _WIDEST_OF_INERT / 2.0:
+        yield ("outline", "body"), f"expected an arena of at most {_WIDEST_OF_INERT:g} m"
 
 
 def _term_misfits(values: Mapping[str, Any]) -> Iterator[Problem]:
@@ -159,7 +178,9 @@ def _object_misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> I
         message = "objects lie in the area called source, and there is none"
         yield ("objects", "patches"), message
         return
-    margin = objects_from_walls(values["object_margin"], values["grip_reach"])
+    margin = objects_from_walls(
+        values["object_margin"], values["grip_reach"], BODIES[values["body"]].radius
+    )
     if arena.banded and "source" in of_arena:
         full = margin >= of_arena["source"] or 2 * margin >= of_arena["width"]
     else:
@@ -177,26 +198,26 @@ def _start_misfits(values: Mapping[str, Any], of_arena: Mapping[str, Any]) -> It
     arena, robots = values["arena"], values["robots"]
     if arena.banded and isinstance(arena.start, Band) and arena.start == arena.zone("nest"):
         width, length, nest = (of_arena[key] for key in ("width", "length", "nest"))
-        room = robots_in_nest(width, length, nest)
+        room = robots_in_nest(width, length, nest, BODIES[values["body"]].radius)
         if nest <= length and robots > room:
             message = f"{robots} do not fit in the nest, which has room for {room}"
             yield ("robots", "nest", "width", "length"), message
         return
-    room = arena_checks.room_at_start(arena)
+    room = arena_checks.room_at_start(arena, BODIES[values["body"]].radius)
     if robots > room:
         message = f"{robots} do not fit where they start, which has room for about {room}"
         yield ("robots", "start", "outline", "width", "length", "obstacles"), message
 
 
-def objects_from_walls(margin: float, grip_reach: float) -> float:
+def objects_from_walls(margin: float, grip_reach: float, radius: float) -> float:
     """Least distance of objects from the walls: the margin, or where robots reach into corners."""
-    return max(margin, footbot.RADIUS - grip_reach / math.sqrt(2.0))
+    return max(margin, radius - grip_reach / math.sqrt(2.0))
 
 
-def robots_in_nest(width: float, length: float, nest: float) -> int:
+def robots_in_nest(width: float, length: float, nest: float, radius: float = footbot.RADIUS) -> int:
     """How many robots fit side by side with their centres in the nest; so many can start there."""
-    diameter = 2.0 * footbot.RADIUS
-    depth = min(nest, length - footbot.RADIUS) - footbot.RADIUS
+    diameter = 2.0 * radius
+    depth = min(nest, length - radius) - radius
     if depth < 0.0:
         return 0
     columns = 1 + math.floor((width - diameter) / diameter)

@@ -13,6 +13,7 @@ from geswarm.rules.findings import Finding, Place, unknown_name
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim.arena.checks import Problem
 from geswarm.sim.arena.model import Arena, normalised
+from geswarm.sim.bodies import BODIES, FOOT_BOT, Body
 from geswarm.sim.scenario import file as scenario_file
 from geswarm.sim.scenario import yaml_form as scenario_yaml
 from geswarm.sim.scenario.checks import (
@@ -57,6 +58,7 @@ class Scenario:
         avoidance_gain: Weight of the avoidance vector.
         avoidance_range: Distance between centres at which robots keep away from each other (m);
             None for `rab_range`.
+        body: The kind of robot, `foot-bot` or `e-puck`.
         evaluations: By how many runs evolution judges where its preset says one: more where runs
             are short, or differ much.
         preconditions: Names of the percepts on offer.
@@ -90,6 +92,7 @@ class Scenario:
     rab_range: float = 0.5
     avoidance_gain: float = 1.0
     avoidance_range: float | None = None
+    body: str = FOOT_BOT.name
     evaluations: int = 1
     preconditions: tuple[str, ...]
     behaviours: tuple[str, ...]
@@ -119,6 +122,11 @@ class Scenario:
     def steps(self) -> int:
         """Number of control steps of a run."""
         return round(self.duration / CONTROL_STEP)
+
+    @property
+    def robot(self) -> Body:
+        """What its robots are."""
+        return BODIES[self.body]
 
     @property
     def width(self) -> float:

@@ -11,6 +11,7 @@ from typing import Any
 
 from geswarm.rules.findings import Place
 from geswarm.rules.findings import shown as quoted
+from geswarm.sim.bodies import BODIES
 from geswarm.sim.parameter import Parameter, shown
 from geswarm.sim.scenario.objective import OF_THE_RUN, Objective, ObjectiveError
 from geswarm.sim.scenario.yaml_items import Item, ItemReader
@@ -126,6 +127,12 @@ def _avoidance_problem(value: object) -> str | None:
 _EVALUATIONS = Parameter(int, 1, 1000)
 
 
+def _body_problem(name: object) -> str | None:
+    if isinstance(name, str) and name in BODIES:
+        return None
+    return f"expected {' or '.join(BODIES)}, got {shown(name)}"
+
+
 def _initial_problem(name: object) -> str | None:
     return None if name == "" else term_problem(name)
 
@@ -144,6 +151,7 @@ def _terms_problem(path: object) -> str | None:
 
 WORDS: Mapping[str, Callable[[object], str | None]] = {
     "avoidance_range": _avoidance_problem,
+    "body": _body_problem,
     "evaluations": _EVALUATIONS.problem,
     "preconditions": partial(names_problem, problem=term_problem, least=0),
     "behaviours": partial(names_problem, problem=declared_problem, least=1),

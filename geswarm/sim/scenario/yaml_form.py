@@ -8,6 +8,7 @@ import yaml
 
 from geswarm.rules.model import clean_line
 from geswarm.sim.arena.model import Arena, Band, Box, Disc, HalfPlane, Light, Patch, Polygon, Shape
+from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.scenario import file as scenario_file
 from geswarm.sim.scenario.checks import OF_THE_ARENA, PARAMETERS
 from geswarm.sim.scenario.objective import Objective
@@ -49,6 +50,8 @@ def _everything(scenario: Scenario) -> dict[str, Any]:
             tree[key] = list(value) if key == "random_walk" else value
     if scenario.avoidance_range is not None:
         tree["avoidance_range"] = scenario.avoidance_range
+    if scenario.robot is not FOOT_BOT:
+        tree["body"] = scenario.body
     if scenario.evaluations != 1:
         tree["evaluations"] = scenario.evaluations
     for key in ("preconditions", "behaviours", "registers", "measures", "probabilities"):

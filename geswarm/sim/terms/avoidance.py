@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import ONE, ZERO, fma
 from geswarm.sim.terms.component import Real
 from geswarm.sim.terms.declare import steering, vector_sum
+
+BODY = FOOT_BOT
+"""The robots that these terms are for."""
 
 
 @vector_sum("away")

@@ -150,12 +150,14 @@ class Behaviour(Component):
         start: What changing to it does, and `again` being true.
         again: Whether it starts afresh by itself; None for never.
         paced: Returns its share of the highest speed, too.
+        goes_on: What it notes down in each step, after it has said where to go.
     """
 
     word: BehaviourName = field(default=NAMELESS)
     start: Update | None = None
     again: Component | None = None
     paced: bool = False
+    goes_on: Update | None = None
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -226,6 +228,16 @@ class SwarmMeasure(Component):
     at: str = "step"
     kind: type = int
     unit: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class CellMeasure(SwarmMeasure):
+    """The steps since some robot was in each of `cells` cells, summed up over cells and steps.
+
+    The function returns the number of the cell that a robot is in, from 0.
+    """
+
+    cells: int = 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ from geswarm.rules.declarations import BehaviourName, InternalStateName, Precond
 from geswarm.rules.model import Value
 from geswarm.sim.terms.component import (
     Behaviour,
+    CellMeasure,
     Component,
     Effect,
     Function,
@@ -139,6 +140,7 @@ def behaviour(
     start: Update | None = None,
     again: Component | None = None,
     paced: bool = False,
+    goes_on: Update | None = None,
 ) -> Callable[[Function], Behaviour]:
     """The function returns a target vector, see `Behaviour`.
 
@@ -150,6 +152,7 @@ def behaviour(
         start: What changing to it does.
         again: Whether it starts afresh by itself.
         paced: Whether the function returns its share of the highest speed, too.
+        goes_on: What it notes down in each step.
     """
     if isinstance(word, str):
         _require_words(word, arguments, (doing, starting))
@@ -164,7 +167,9 @@ def behaviour(
             arguments,
         )
     words = word
-    return lambda function: Behaviour(function, word=words, start=start, again=again, paced=paced)
+    return lambda function: Behaviour(
+        function, word=words, start=start, again=again, paced=paced, goes_on=goes_on
+    )
 
 
 def condition(function: Function) -> Component:
@@ -202,6 +207,11 @@ def measure(
 ) -> Callable[[Function], Measure]:
     """The function returns a number, see `Measure`."""
     return lambda function: Measure(function, at=at, kind=kind, unit=unit)
+
+
+def cell_measure(cells: int, unit: str = "") -> Callable[[Function], CellMeasure]:
+    """The function returns the number of a robot's cell, see `CellMeasure`."""
+    return lambda function: CellMeasure(function, cells=cells, unit=unit)
 
 
 def swarm_measure(

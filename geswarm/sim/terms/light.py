@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from geswarm.rules.vocabulary import FORAGING
+from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import I
 from geswarm.sim.terms.component import Integer, Real
 from geswarm.sim.terms.declare import behaviour, percept, sensor
+
+BODY = FOOT_BOT
+"""The robots that these terms are for."""
 
 
 @behaviour(FORAGING.behaviour_names["PHOTOTAXIS"])

@@ -10,6 +10,7 @@ from functools import cached_property
 
 from geswarm.rules.model import Term
 from geswarm.rules.vocabulary import Vocabulary
+from geswarm.sim.bodies import FOOT_BOT, Body
 from geswarm.sim.kernels import draws
 from geswarm.sim.kernels.single import F, I
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
@@ -53,6 +54,7 @@ class Parts:
         behaviours: Numbered as the vocabulary numbers them.
         first: The behaviour at the start.
         ground: The form of the arena.
+        body: The kind of robot.
         registers: Internal states; the first one has the lowest bits.
         sums: Sums over the other robots that are on offer.
         steering: Added to the target of every behaviour.
@@ -71,6 +73,7 @@ class Parts:
     behaviours: tuple[Behaviour, ...]
     first: Behaviour
     ground: Ground
+    body: Body = FOOT_BOT
     registers: tuple[Register, ...] = ()
     sums: tuple[Sum, ...] = ()
     steering: tuple[Steering, ...] = ()
@@ -103,6 +106,8 @@ class Parts:
                 yield behaviour.start
             if behaviour.again:
                 yield behaviour.again
+            if behaviour.goes_on:
+                yield behaviour.goes_on
         yield from (effect.then for effect in self.effects if effect.then)
         yield from self.measures
 

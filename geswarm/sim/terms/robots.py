@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from geswarm.rules.arguments import Number, Whole
+from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import ONE, TWO, ZERO, F, I
 from geswarm.sim.terms.component import Integer, Real
 from geswarm.sim.terms.declare import behaviour, count, percept, sensor, vector_sum
+
+BODY = FOOT_BOT
+"""The robots that these terms are for."""
 
 _CM = F(100.0)
 

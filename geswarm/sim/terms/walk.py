@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from geswarm.rules.arguments import Number
 from geswarm.rules.vocabulary import FORAGING
+from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import ZERO, F, I, fma, fraction, heading
 from geswarm.sim.terms.component import Bits, Integer, Real
 from geswarm.sim.terms.declare import behaviour, condition, update
+
+BODY = FOOT_BOT
+"""The robots that these terms are for."""
 
 
 @update(writes={"walk_x": F, "walk_y": F, "walk_until": I}, draws=("walk_heading", "walk_time"))

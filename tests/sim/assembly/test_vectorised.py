@@ -23,6 +23,7 @@ SCALAR = (
     "brightness_here = ZERO",
     "if work.happens[lane]:",  # rare
     "if work.touch[lane]:",
+    "if work.near[lane]:",
 )
 """First lines of the loops that are meant to go through the lanes one by one."""
 
@@ -62,7 +63,7 @@ def test_every_loop_of_aac_is_vectorised():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("scenario", ["aggregation", "homing", "xor"])
+@pytest.mark.parametrize("scenario", ["aggregation", "homing", "xor", "epuck-aac"])
 def test_every_loop_of_the_other_scenarios_is_vectorised(scenario):
     assert loops_that_are_not_vectorised("lanes", scenario) == []
 
