@@ -66,6 +66,7 @@ def _transition(transition: Transition) -> dict[str, Json]:
         "condition": [dict(term) for term in transition.condition.terms],
         "when": str(transition.condition),
         "probability": transition.probability,
+        **({"varies": transition.rate} if transition.chances.varies else {}),
         "mean_wait": transition.mean_wait,
         "effects": dict(transition.effects),
         "restarts": transition.restarts,

@@ -17,6 +17,7 @@ from typing import TypeAlias
 from geswarm.exports import graphviz
 from geswarm.exports.geometry import Box, Path, Point, bowed, loops
 from geswarm.exports.placing import badges_apart, clearest, in_columns, place_badges, place_labels
+from geswarm.rules.rates import Rate
 from geswarm.rules.state_machine import State, StateMachine, Transition
 
 Lines: TypeAlias = tuple[str, ...]
@@ -123,7 +124,8 @@ def brief_lines(_: StateMachine, transition: Transition) -> Lines:
     """One line, with probability and rules."""
     rules = transition.rules
     names = _names(rules) if len(rules) <= _MOST_NAMES else f"{len(rules)} rules"
-    return (f"p = {transition.probability:.3g} · {names}",)
+    sign = "≤" if transition.chances.varies else "="
+    return (f"p {sign} {transition.probability:.3g} · {names}",)
 
 
 def _names(rules: Sequence[int]) -> str:
@@ -206,7 +208,8 @@ def _labels_at_arrows(
 
 def _typical_lines(machine: StateMachine, form: Form, arrow: Arrow) -> list[Lines]:
     """The text of an arrow as it would be with probabilities of the usual length."""
-    entries = [replace(machine.transitions[at], probability=_TYPICAL) for at in arrow.transitions]
+    typical = Rate(_TYPICAL, _TYPICAL)
+    entries = [replace(machine.transitions[at], chances=typical) for at in arrow.transitions]
     return [form.arrow_lines(machine, entry) for entry in entries]
 
 

@@ -1,4 +1,4 @@
-"""Statements about what a robot senses that are true or false, and that rules tell apart."""
+"""Statements about what a robot senses that rules tell apart: true, false, or true by chance."""
 
 from __future__ import annotations
 
@@ -56,3 +56,32 @@ class Atom:
         """That it is true, or not, as a phrase."""
         percept = vocabulary.percepts[self.precondition.percept.name]
         return percept.says(self.precondition if true else self.opposite)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A statement about one reading that is true with a probability that depends on it.
+
+    Attributes:
+        precondition: What it states: `CROWDED(3, 2.5) == true`.
+        opposite: The precondition that denies it.
+        reading: What it looks at.
+        chances: How probable it is for each value of the reading.
+    """
+
+    precondition: Precondition
+    opposite: Precondition
+    reading: str
+    chances: tuple[float, ...]
+
+    @classmethod
+    def of(cls, entry: Precondition, vocabulary: Vocabulary) -> Drawn:
+        """The statement that a precondition makes or denies."""
+        reading = vocabulary.reading_of(entry.percept.name)
+        one, other = (Precondition(entry.percept, value) for value in (True, False))
+        chances = (vocabulary.chance(one, value) for value in reading.values)
+        return cls(one, other, reading.name, tuple(chances))
+
+    def says(self, vocabulary: Vocabulary) -> str:
+        """That it is true, as a phrase."""
+        return vocabulary.percepts[self.precondition.percept.name].says(self.precondition)

@@ -102,6 +102,9 @@ def _percepts(percepts: int, space: Space) -> Iterator[str]:
     for atom in space.atoms:
         if atom.name not in excluded and atom.reading not in space.vocabulary.state_names:
             yield atom.says(bool(truths[atom.name]), space.vocabulary)
+    for drawn in space.drawn:
+        chance = space.chance(drawn.precondition)[percepts]
+        yield f"{drawn.says(space.vocabulary)} by a chance of {chance:.6g}"
 
 
 def _words(behaviour: int, space: Space) -> tuple[str, str]:

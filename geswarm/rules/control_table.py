@@ -89,7 +89,10 @@ def apply_action(distribution: FloatArray, action: Action, space: Space) -> Floa
 
 
 def active_part(rule: Rule, space: Space) -> FloatArray:
-    """1 where the rule is active, else 0; shape (percepts, 1, outcomes), read-only."""
+    """How probably the rule is active where; shape (percepts, 1, outcomes), read-only.
+
+    0 or 1, unless a precondition holds by chance; each that does is drawn on its own.
+    """
     return _active_part(rule.preconditions, rule.behaviours, space)
 
 
@@ -99,7 +102,7 @@ def _active_part(
 ) -> FloatArray:
     percepts = np.ones(space.percepts)
     for precondition in preconditions:
-        percepts *= space.holds(precondition)
+        percepts *= space.chance(precondition)
     current = np.zeros(len(space.behaviours))
     current[[space.behaviours.index(term) for term in behaviours] or slice(None)] = 1.0
     outcomes = np.repeat(current, space.states * 2)

@@ -56,6 +56,7 @@ class PreconditionName:
         arguments: What is written in parentheses.
         truth: Makes a percept true or false of a reading's value and the arguments; None takes
             the value itself.
+        chance: The probability that it is true, of the same; each rule draws it on its own.
     """
 
     name: str
@@ -64,6 +65,7 @@ class PreconditionName:
     reading: str = ""
     arguments: tuple[Argument, ...] = ()
     truth: Callable[..., bool] | None = None
+    chance: Callable[..., float] | None = None
 
     def says(self, precondition: Precondition) -> str:
         """A precondition on this percept as a phrase."""

@@ -7,7 +7,7 @@ piece gets one finding, the most specific that is true.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 from typing import Any
 
@@ -65,7 +65,8 @@ def _rule_findings(trace: Trace, at: int, numbers: Sequence[int]) -> Iterator[Fi
             message = f"p = {format_probability(action.p)}: this action never happens"
             yield _finding(number, f"action {index}", message, "warning")
     if trace.matters(at, None):
-        yield from _repeated(number, "precondition", rule.preconditions)
+        drawn = filter(trace.space.vocabulary.is_drawn, rule.preconditions)  # each time anew
+        yield from _repeated(number, "precondition", rule.preconditions, frozenset(drawn))
         yield from _repeated(number, "behaviour", rule.behaviours)
         yield from _idle_preconditions(trace, at, number)
         yield from _idle_behaviours(trace, at, number)
@@ -170,9 +171,11 @@ def _overriding_rule(trace: Trace, at: int, difference: FloatArray, numbers: Seq
     return f"rule {numbers[later]}"
 
 
-def _repeated(number: int, kind: str, elements: Sequence[object]) -> Iterator[Finding]:
+def _repeated(
+    number: int, kind: str, elements: Sequence[object], drawn: Set[object] = frozenset()
+) -> Iterator[Finding]:
     for index, element in enumerate(elements, start=1):
-        if (first := elements.index(element) + 1) < index:
+        if element not in drawn and (first := elements.index(element) + 1) < index:
             yield _finding(number, f"{kind} {index}", f"no effect: the same as {kind} {first}")
 
 

@@ -39,11 +39,17 @@ def describe_rule(rule: Rule, vocabulary: Vocabulary = FORAGING) -> str:
 
 
 def _condition(rule: Rule, vocabulary: Vocabulary) -> str:
-    preconditions = list(dict.fromkeys(rule.preconditions))
+    preconditions = [
+        entry
+        for at, entry in enumerate(rule.preconditions)
+        if vocabulary.is_drawn(entry) or entry not in rule.preconditions[:at]
+    ]
     clashing = [
         entry
         for entry in preconditions
-        if isinstance(entry.value, bool) and replace(entry, value=not entry.value) in preconditions
+        if isinstance(entry.value, bool)
+        and not vocabulary.is_drawn(entry)
+        and replace(entry, value=not entry.value) in preconditions
     ]
     sensed = [_percept(entry, vocabulary) for entry in clashing or preconditions]
     if clashing:

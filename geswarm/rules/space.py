@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules.atoms import Atom
+from geswarm.rules.atoms import Atom, Drawn
 from geswarm.rules.declarations import InternalStateName, Reading
 from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import (
@@ -53,12 +53,14 @@ class Space:
         atoms: The statements about readings that are told apart.
         behaviours: The behaviours.
         internal_states: The internal states; all others keep their initial value.
+        drawn: The statements that are true by chance; percepts differ where their chances do.
     """
 
     vocabulary: Vocabulary
     atoms: tuple[Atom, ...]
     behaviours: tuple[Term, ...]
     internal_states: tuple[InternalStateName, ...]
+    drawn: tuple[Drawn, ...] = ()
 
     @classmethod
     def of(cls, vocabulary: Vocabulary, *rule_sets: RuleSet) -> Space:
@@ -82,7 +84,7 @@ class Space:
     @cached_property
     def signature(self) -> str:
         """Equal for spaces that number the same things alike."""
-        return repr((self.atoms, self.behaviours, self.internal_states))
+        return repr((self.atoms, self.behaviours, self.internal_states, self.drawn))
 
     # --- percepts -----------------------------------------------------------------------------
 
@@ -91,9 +93,12 @@ class Space:
         """The readings that matter, and for each of its values the number of its cell."""
         found = []
         for name, reading in self.vocabulary.readings_by_name.items():
-            atoms = [atom.accepted for atom in self.atoms if atom.reading == name]
-            if atoms:
-                truths = list(zip(*atoms, strict=True))  # of each value of the reading
+            said: list[tuple[float, ...]] = [
+                *(atom.accepted for atom in self.atoms if atom.reading == name),
+                *(drawn.chances for drawn in self.drawn if drawn.reading == name),
+            ]
+            if said:
+                truths = list(zip(*said, strict=True))  # of each value of the reading
                 kinds = list(dict.fromkeys(truths))
                 found.append((reading, tuple(map(kinds.index, truths))))
         return tuple(found)
@@ -129,18 +134,18 @@ class Space:
         rows = [[atom.accepted[at[atom.reading]] for atom in self.atoms] for at in self._sensed]
         return np.array(rows, dtype=bool).reshape(self.percepts, len(self.atoms))
 
-    def holds(self, precondition: Precondition) -> npt.NDArray[np.bool_]:
-        """For which percepts a precondition holds, shape (percepts,)."""
+    def chance(self, precondition: Precondition) -> FloatArray:
+        """How probable a precondition is for each percept, shape (percepts,); often 0 or 1."""
         reading = self.vocabulary.reading_of(precondition.percept.name)
-        accepted = [self.vocabulary.holds(precondition, value) for value in reading.values]
-        return np.array([accepted[at[reading.name]] for at in self._sensed], dtype=bool)
+        chances = [self.vocabulary.chance(precondition, value) for value in reading.values]
+        return np.array([chances[at[reading.name]] for at in self._sensed], dtype=np.float64)
 
     def can_hold(self, preconditions: Sequence[Precondition]) -> bool:
-        """Whether anything that a robot can perceive meets all of them."""
+        """Whether anything that a robot can perceive meets all of them, or may do so."""
         possible = np.zeros(self.percepts, dtype=bool)
         possible[list(self.possible)] = True
         for precondition in preconditions:
-            possible &= self.holds(precondition)
+            possible &= self.chance(precondition) > 0.0
         return bool(possible.any())
 
     @cached_property
@@ -158,7 +163,7 @@ class Space:
         """For which percepts a robot carries an object, shape (percepts,)."""
         if self.vocabulary.objects is None:
             return np.zeros(self.percepts, dtype=bool)
-        return self.holds(Precondition(Term(self.vocabulary.objects.holding), True))
+        return self.chance(Precondition(Term(self.vocabulary.objects.holding), True)) > 0.0
 
     def perceivable(self, holding: bool, states: int) -> list[int]:
         """Everything that a robot can perceive that holds an object, or does not.
@@ -340,7 +345,11 @@ def _space(
         key=lambda entry: (order_of[entry.percept.name], str(entry.percept), str(entry.value)),
     )
     atoms: dict[tuple[str, tuple[bool, ...]], Atom] = {}
+    drawn: dict[Term, Drawn] = {}
     for precondition in in_order:
+        if vocabulary.is_drawn(precondition):
+            drawn.setdefault(precondition.percept, Drawn.of(precondition, vocabulary))
+            continue
         atom = Atom.of(precondition, vocabulary)
         opposite = tuple(not each for each in atom.accepted)
         if (atom.reading, opposite) not in atoms:
@@ -350,6 +359,7 @@ def _space(
         tuple(atoms.values()),
         tuple(sorted(behaviours | needed, key=lambda term: (order[term.name], term.arguments))),
         tuple(entry for entry in vocabulary.internal_states if entry.name in states),
+        tuple(drawn.values()),
     )
     if (size := space.situations * space.outcomes) > _MOST:
         message = f"expected at most {_MOST:,} situations times outcomes told apart, got {size:,}"

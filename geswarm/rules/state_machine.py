@@ -11,6 +11,10 @@ robots can get into; situations that they cannot get into make the conditions sh
 >>> for transition in machine.transitions_from(1):
 ...     print(machine.describe(transition))
 ANTI-PHOTOTAXIS to RANDOM_WALK when ON_NEST: p = 1, at once; drop the object
+
+Conditions are about what is true or false. Where a precondition holds by chance, the probability of
+the transition depends on what robots perceive: it is told as a multiple of that chance, or else
+from the least to the greatest.
 """
 
 from __future__ import annotations
@@ -27,13 +31,12 @@ import numpy.typing as npt
 from geswarm.rules.conditions import Condition, minimise
 from geswarm.rules.model import CONTROL_STEP, RuleSet, StateChange, Term, Value, format_value
 from geswarm.rules.notebook import as_html
+from geswarm.rules.rates import Rate
 from geswarm.rules.reachability import TOLERANCE, Trace, effective_outcomes
 from geswarm.rules.space import Space
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
 IntArray: TypeAlias = npt.NDArray[np.int64]
-
-_DIGITS = 12  # probabilities that agree to this many decimals are the same
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,7 @@ class Transition:
         source: Index of the state before.
         target: Index of the state after; the same as `source` for a loop, which has an effect.
         condition: The percepts for which it can happen.
-        probability: Per control step in which the condition holds.
+        chances: How probable it is in a control step in which the condition holds.
         effects: Momentary internal states that are set, and to what; `DROP_OBJECT` only where
             an object is held.
         restarts: A loop that begins the behaviour afresh (random walk: a new heading).
@@ -87,22 +90,29 @@ class Transition:
     source: int
     target: int
     condition: Condition
-    probability: float
+    chances: Rate
     effects: tuple[tuple[str, Value], ...]
     restarts: bool
     rules: tuple[int, ...]
 
     @property
+    def probability(self) -> float:
+        """Per control step in which the condition holds; the greatest, if it varies."""
+        return self.chances.most
+
+    @property
     def mean_wait(self) -> float:
-        """Mean time until it happens while the condition holds (s)."""
+        """Mean time until it happens while the condition holds (s); the least, if it varies."""
         return CONTROL_STEP / self.probability
 
     @property
     def rate(self) -> str:
         """Probability per step and mean waiting time: `p = 0.05, 2 s`."""
+        if self.chances.varies:
+            return str(self.chances)
         digits = 0 if self.mean_wait >= 9.95 else 1 if self.mean_wait >= 0.95 else 2
         wait = f"{self.mean_wait:.{digits}f} s".replace(".0 s", " s")
-        return f"p = {self.probability:.6g}, {'at once' if self.probability == 1 else wait}"
+        return f"{self.chances}, {'at once' if self.probability == 1 else wait}"
 
 
 @dataclass(frozen=True)
@@ -292,23 +302,26 @@ class _Reader:
     def transitions_from(self, source: int) -> Iterator[Transition]:
         """Everything that can happen in a state, the same probabilities merged."""
         column = self.columns[source]
-        reachable = [int(at) for at in np.flatnonzero(self.trace.reachable[:, column])]
-        points = {self.points[percepts] for percepts in reachable}
-        percepts_of: dict[tuple[_Event, float], list[int]] = defaultdict(list)
-        for percepts in reachable:
-            for event, probability in self._events(percepts, column).items():
-                if probability > TOLERANCE and event != _Event(column, (), False):
-                    percepts_of[event, round(probability, _DIGITS)].append(percepts)
+        alike: dict[int, list[int]] = defaultdict(list)  # but for what is true by chance
+        for percepts in map(int, np.flatnonzero(self.trace.reachable[:, column])):
+            alike[self.points[percepts]].append(percepts)
+        percepts_of: dict[tuple[_Event, Rate], list[int]] = defaultdict(list)
+        for group in alike.values():
+            events = {percepts: self._events(percepts, column) for percepts in group}
+            for event in dict.fromkeys(event for found in events.values() for event in found):
+                found = {percepts: events[percepts].get(event, 0.0) for percepts in group}
+                if max(found.values()) > TOLERANCE and event != _Event(column, (), False):
+                    percepts_of[event, Rate.over(found, self.space)] += group
         in_order = sorted(
             percepts_of.items(),
-            key=lambda item: (item[0][0].column, item[0][0].effects, -item[0][1], item[1]),
+            key=lambda item: (item[0][0].column, item[0][0].effects, -item[0][1].most, item[1]),
         )
-        for (event, probability), where in in_order:
+        for (event, chances), where in in_order:
             yield Transition(
                 source,
                 self.columns.index(event.column),
-                self._condition(where, points),
-                probability,
+                self._condition(where, set(alike)),
+                chances,
                 event.effects,
                 event.restarts,
                 self._rules_behind(where, column, event),

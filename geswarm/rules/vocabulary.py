@@ -104,7 +104,8 @@ class Vocabulary:
 
     def values_of(self, percept: str) -> tuple[Value, ...]:
         """What a percept can be compared with."""
-        return BOOLEAN if self.percepts[percept].truth else self.reading_of(percept).values
+        entry = self.percepts[percept]
+        return BOOLEAN if entry.truth or entry.chance else self.reading_of(percept).values
 
     def comparisons_of(self, percept: str) -> tuple[str, ...]:
         """How a percept can be compared."""
@@ -112,8 +113,34 @@ class Vocabulary:
             return "==", "!="
         return tuple(COMPARISONS)
 
+    def is_drawn(self, precondition: Precondition) -> bool:
+        """Whether it is by chance that a precondition holds."""
+        entry = self.percepts.get(precondition.percept.name)
+        return entry is not None and entry.chance is not None
+
+    def chance(self, precondition: Precondition, value: Value) -> float:
+        """The probability that a precondition holds when the reading has a value.
+
+        Raises:
+            ValueError: What the vocabulary makes of them is none.
+        """
+        entry = self.percepts[precondition.percept.name]
+        if entry.chance is None:
+            return float(self.holds(precondition, value))
+        true = float(entry.chance(value, *precondition.percept.arguments))
+        if not 0.0 <= true <= 1.0:
+            raise ValueError(
+                f"{precondition.percept}: expected a chance from 0 to 1 for "
+                f"{format_value(value)}, got {true}"
+            )
+        wanted = COMPARISONS[precondition.comparison](True, precondition.value)
+        return true if wanted else 1.0 - true
+
     def holds(self, precondition: Precondition, value: Value) -> bool:
-        """Whether a precondition holds when the reading that it looks at has a value."""
+        """Whether a precondition holds when the reading that it looks at has a value.
+
+        It must be one that is true or false of it, see `is_drawn`.
+        """
         entry = self.percepts[precondition.percept.name]
         sensed = entry.truth(value, *precondition.percept.arguments) if entry.truth else value
         return COMPARISONS[precondition.comparison](sensed, precondition.value)

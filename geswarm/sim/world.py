@@ -17,7 +17,12 @@ from geswarm.rules.vocabulary import Vocabulary
 from geswarm.sim.arena.places import is_in_area, nearest_free, nearest_in_source
 from geswarm.sim.batch import fitness_of
 from geswarm.sim.controllers.encoding import fails
-from geswarm.sim.controllers.program import Instances, chances, rules_to_interpret
+from geswarm.sim.controllers.program import (
+    Instances,
+    chances,
+    chances_to_interpret,
+    rules_to_interpret,
+)
 from geswarm.sim.controllers.spaces import (
     behaviours_of,
     counted_in,
@@ -226,7 +231,8 @@ class World:
             raise ValueError(f"n: expected at least 0, got {n}")
         rules = (self._rules, self._accepted, self._actions, self._misses)
         instances = (self._kinds, self._arguments) if self._parts.arguments else ()
-        self._swarm.run((*rules, self._decisions.reshape(-1), *instances), n)
+        holding = (self._holding,) if self._parts.drawn_sensors else ()
+        self._swarm.run((*rules, self._decisions.reshape(-1), *holding, *instances), n)
 
     def set_rules(self, rule_set: RuleSet) -> None:
         """Give all robots new rules from the next step on; only what has fired is forgotten.
@@ -239,6 +245,7 @@ class World:
         in_use = () if self._instances is None else self._in_use()
         own = Instances.of(rule_set, self._parts, in_use)
         self._rules, self._accepted, self._actions = rules_to_interpret(rule_set, own)
+        self._holding = chances_to_interpret(rule_set, self._parts)
         if self._instances is not None and own.terms != self._instances.terms:
             numbers = [own.terms.index(t) if t in own.terms else 0 for t in self._instances.terms]
             now[:] = np.array(numbers, dtype=now.dtype)[now]

@@ -22,10 +22,24 @@ def _rules(rules, percepts, now, probability, found):
         found[now] += probability
         return
     rule, later = rules[0], rules[1:]
-    holds = all(percepts[str(entry.percept)] == entry.value for entry in rule.preconditions)
     executing = not rule.behaviours or now[0] in map(str, rule.behaviours)
-    actions = rule.actions if holds and executing else ()
-    _actions(actions, later, percepts, now, probability, found)
+    actions = rule.actions if executing else ()
+    _preconditions(rule.preconditions, actions, later, percepts, now, probability, found)
+
+
+def _preconditions(preconditions, actions, later, percepts, now, probability, found):
+    """A percept is true, false, or a Fraction: the chance that it is true, drawn for each rule."""
+    if not preconditions:
+        _actions(actions, later, percepts, now, probability, found)
+        return
+    entry, rest = preconditions[0], preconditions[1:]
+    chance = Fraction(percepts[str(entry.percept)])
+    if not entry.value:
+        chance = 1 - chance
+    if chance > 0:
+        _preconditions(rest, actions, later, percepts, now, probability * chance, found)
+    if chance < 1:
+        _rules(later, percepts, now, probability * (1 - chance), found)
 
 
 def _actions(actions, later, percepts, now, probability, found):

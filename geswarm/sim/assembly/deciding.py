@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geswarm.sim.assembly import acting, ground
 from geswarm.sim.assembly.source import Source
+from geswarm.sim.kernels.draws import FIRST_CHANCE
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
 from geswarm.sim.terms.component import Sensor
 
@@ -154,6 +155,7 @@ def _interpret(source: Source) -> None:
                 source("active = I(active & robot.exists[lane])")
             source("work.active[lane], work.fired[lane] = active, I(0)\nsome = I(some | active)")
         with source.inside("if some and rule.enabled:"):
+            _draw_preconditions(source)
             with source.inside("for a in range(rule.first_action, rule.end_action):"):
                 _act(source)
             source("fired = I(0)")
@@ -162,6 +164,18 @@ def _interpret(source: Source) -> None:
                 source("robot.last_rule[lane] = I(r) if work.fired[lane] != I(0) else last")
                 source("fired = I(fired + work.fired[lane])")
             source("rule.fired += fired")
+
+
+def _draw_preconditions(source: Source) -> None:
+    """In which robots a rule is active whose preconditions hold by chance."""
+    drawn = source.parts.drawn_sensors
+    for number, sensor in enumerate(drawn):
+        purpose = f"{FIRST_CHANCE + number} + {len(drawn)} * r"
+        with source.lanes():
+            source("low, high = robot.key_low[lane], robot.key_high[lane]")
+            source(f"threshold = holding[r, {number}, work.{sensor.name}_now[lane]]")
+            source(f"holds = I(draw_bits(low, high, step, {purpose}) <= threshold)")
+            source("work.active[lane] = I(work.active[lane] & holds)")
 
 
 def _accepts(name: str, reading: str, values: int) -> str:

@@ -93,14 +93,16 @@ def arguments(parts: Parts, layout: Layout) -> tuple[str, ...]:
 
     numbers: float32, the scenario's; robots, objects: see `records`; group, classes, rows,
     thresholds, outcomes: control tables, see `kernels.table`; rules, accepted, actions, misses,
-    decisions: rules to be interpreted and what is counted; kinds, arguments: of each instance of a
-    behaviour; grid: see `kernels.pairs`; width: lanes in use; first, steps: control steps.
+    decisions: rules to be interpreted and what is counted; holding: thresholds by which readings
+    let rules act by chance; kinds, arguments: of each instance of a behaviour; grid: see
+    `kernels.pairs`; width: lanes in use; first, steps: control steps.
     """
     table = ("group", "classes", "rows", "thresholds", "outcomes")
     rules = ("rules", "accepted", "actions", "misses", "decisions")
     return (
         *("numbers", "robots", "objects"),
         *(rules if layout.rules else table),
+        *(("holding",) if layout.rules and parts.drawn_sensors else ()),
         *(("kinds", "arguments") if parts.arguments else ()),
         "grid" if layout.swarm else "width",
         *("first", "steps"),

@@ -21,8 +21,9 @@ from geswarm.rules.names import require_known_names
 from geswarm.sim.assembly.records import ACTION, CHANCE, RULE, Records
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS, Encoded
 from geswarm.sim.terms.component import Register
-from geswarm.sim.terms.parts import Parts
+from geswarm.sim.terms.parts import MOST_VALUES, Parts
 
+Chances: TypeAlias = npt.NDArray[np.float64]
 Change: TypeAlias = tuple[int, int, int, int, int]
 """Bits to clear, bits to set; added to the counter, its least and greatest value then."""
 _NO_CHANGE: Change = (0, 0, 0, 0, 7)
@@ -122,24 +123,44 @@ def change_of(action: StateChange, parts: Parts) -> Change:
 
 @lru_cache(maxsize=4096)
 def accepted(precondition: Precondition, parts: Parts) -> tuple[int, int]:
-    """(position of the sensor, the readings for which the precondition holds, as bits)."""
+    """(position of the sensor, the readings for which the precondition can hold, as bits)."""
     percept = parts.percepts_by_name[precondition.percept.name]
     holding = (
         reading
         for reading in range(percept.sensor.values)
-        if parts.vocabulary.holds(precondition, percept.value(reading))
+        if parts.vocabulary.chance(precondition, percept.value(reading)) > 0.0
     )
     return parts.sensors.index(percept.sensor), sum(1 << reading for reading in holding)
 
 
 @lru_cache(maxsize=4096)
 def _accepted_by(preconditions: tuple[Precondition, ...], parts: Parts) -> tuple[int, ...]:
-    """The readings of each sensor for which all preconditions hold, as bits."""
+    """The readings of each sensor for which all preconditions can hold, as bits."""
     masks = [(1 << sensor.values) - 1 for sensor in parts.sensors]
     for precondition in preconditions:
         position, values = accepted(precondition, parts)
         masks[position] &= values
     return tuple(masks)
+
+
+@lru_cache(maxsize=4096)
+def _holding(preconditions: tuple[Precondition, ...], parts: Parts) -> Chances | None:
+    """How probably each value of each sensor meets what holds by chance; None if nothing does.
+
+    Returns:
+        float64, shape (sensors, 64), read-only.
+    """
+    drawn = [each for each in preconditions if parts.vocabulary.is_drawn(each)]
+    if not drawn:
+        return None
+    holding = np.ones((len(parts.sensors), MOST_VALUES))
+    for precondition in drawn:
+        percept = parts.percepts_by_name[precondition.percept.name]
+        for reading in range(percept.sensor.values):
+            chance = parts.vocabulary.chance(precondition, percept.value(reading))
+            holding[parts.sensors.index(percept.sensor), reading] *= chance
+    holding.setflags(write=False)
+    return holding
 
 
 def _flags(parts: Parts) -> list[Register]:
@@ -178,12 +199,17 @@ def encode(
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
     rule_ends, accepts, masks, action_ends = [], [], [], []
+    drawn: list[int] = []
+    holding: list[Chances] = []
     chances, targets, changes = [], [], []
     for rule_set, own in zip(rule_sets, instances, strict=True):
         for rule in rule_set.rules:
             if not rule.enabled:
                 continue
             accepts.append(_accepted_by(rule.preconditions, parts))
+            by_chance = _holding(rule.preconditions, parts) if parts.drawn_sensors else None
+            drawn.append(-1 if by_chance is None else len(holding))
+            holding += [] if by_chance is None else [by_chance]
             masks.append(own.mask(rule.behaviours))
             for action in rule.actions:
                 target, change = own.effect(action)
@@ -199,6 +225,8 @@ def encode(
         instances=[len(own.terms) for own in instances],
         restarting=[own.restarting for own in instances],
         accepted=np.array(accepts, dtype=np.uint64).reshape(-1, len(parts.sensors)),
+        drawn=drawn,
+        holding=np.array(holding).reshape(-1, len(parts.sensors), MOST_VALUES),
         behaviours=masks,
         action_ends=action_ends,
         chances=np.array(chances, dtype=np.float64),
@@ -232,6 +260,27 @@ def chances(fails: Sequence[float], parts: Parts) -> Records:
     """The sensors that may fail, as random bits decide it; of CHANCE."""
     failing = [p for p, sensor in zip(fails, parts.sensors, strict=True) if sensor.fails]
     return np.array([chance(p) for p in failing], dtype=CHANCE)
+
+
+def chances_to_interpret(rule_set: RuleSet, parts: Parts) -> npt.NDArray[np.uint32]:
+    """By which readings rules act by chance: random bits up to these thresholds let them.
+
+    Args:
+        rule_set: The rules; their names must be known.
+        parts: What the scenario is composed of.
+
+    Returns:
+        Shape (rules, sensors on which percepts depend by chance, 64).
+    """
+    shape = (len(rule_set.rules), len(parts.drawn_sensors), MOST_VALUES)
+    thresholds = np.full(shape, 0xFFFFFFFF, dtype=np.uint32)
+    for number, rule in enumerate(rule_set.rules):
+        holding = _holding(rule.preconditions, parts)
+        for place, sensor in enumerate(parts.drawn_sensors if holding is not None else ()):
+            assert holding is not None
+            row = holding[parts.sensors.index(sensor)]
+            thresholds[number, place] = [chance(p)[0] for p in row.tolist()]
+    return thresholds
 
 
 def rules_to_interpret(

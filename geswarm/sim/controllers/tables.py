@@ -28,7 +28,7 @@ from geswarm.sim.kernels.table import (
     Encoded,
     Tables,
 )
-from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
+from geswarm.sim.terms.parts import MOST_STATE_BITS, MOST_VALUES, Parts
 
 Controller: TypeAlias = RuleSet | ControlTable | Machine
 
@@ -76,7 +76,11 @@ def compile_controllers(
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
         ValueError: A table is for another vocabulary, or a rule set is beyond a limit.
     """
-    short = [each for each in controllers if isinstance(each, RuleSet) and _is_short(each)]
+    short = [
+        each
+        for each in controllers
+        if isinstance(each, RuleSet) and len(each.rules) <= _most_rules(parts)
+    ]
     for each in controllers:
         if isinstance(each, RuleSet):
             require_known_names(each, parts.vocabulary)
@@ -135,7 +139,7 @@ def _exact(controller: RuleSet | ControlTable, parts: Parts) -> ControlTable:
     if parts.arguments or parts.counter is not None:
         what = f"{len(controller.rules)} rules" if isinstance(controller, RuleSet) else "a table"
         raise ValueError(
-            f"expected rule sets of at most {MOST_RULES - MOST_STATE_BITS} rules where behaviours "
+            f"expected rule sets of at most {_most_rules(parts)} rules where behaviours "
             f"have arguments or there are counters, got {what}"
         )
     if isinstance(controller, ControlTable):
@@ -151,13 +155,15 @@ def _nothing_but(instances: Sequence[Instances], fails: Sequence[float], parts: 
         instances=[len(own.terms) for own in instances],
         restarting=[own.restarting for own in instances],
         changes=np.zeros((0, 5), np.int64), chances=np.zeros(0),
-        accepted=np.zeros((0, len(parts.sensors)), np.uint64),
+        accepted=np.zeros((0, len(parts.sensors)), np.uint64), drawn=[],
+        holding=np.zeros((0, len(parts.sensors), MOST_VALUES)),
     )  # fmt: skip
 
 
-def _is_short(rule_set: RuleSet) -> bool:
-    """Whether the kernel can keep all rules apart; longer ones go by way of the dense table."""
-    return len(rule_set.rules) <= MOST_RULES - MOST_STATE_BITS
+def _most_rules(parts: Parts) -> int:
+    """Up to so many rules the kernel can keep apart; longer ones go by way of the dense table."""
+    cells = sum((sensor.values - 1).bit_length() for sensor in parts.drawn_sensors)
+    return MOST_RULES - MOST_STATE_BITS - cells
 
 
 def _dense(tables: Sequence[ControlTable], parts: Parts) -> npt.NDArray[np.float64]:

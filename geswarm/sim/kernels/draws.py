@@ -17,6 +17,8 @@ No two decisions of a robot share a purpose within a step, so no two decisions e
 | FIRST_ACTION + a | robot | control step  | whether action a of the rule set happens             |
 | E_PUCK + n      | robot | control step  | noise of an e-puck's wheels and sensors              |
 | MESSAGE + j     | robot | control step  | which messages between it and e-puck j are lost      |
+| FIRST_CHANCE + k r + i | robot | control step | whether the i-th of k readings lets rule r |
+|                 |       |               | act, where that is by chance                         |
 
 The arena's key is that of a robot numbered one past the last.
 """
@@ -34,6 +36,7 @@ START_X, START_Y, START_HEADING, START_WALK, START_WALK_TIME = 6, 7, 8, 9, 10
 START_OBJECT_X, START_OBJECT_Y = 11, 12
 FIRST_ACTION = 16
 E_PUCK, MESSAGE = 1 << 20, 1 << 21
+FIRST_CHANCE = 1 << 22
 
 
 @inlined

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from geswarm.sim.kernels.jit import called
-from geswarm.sim.kernels.table import IDENTITY, MOST_OUTCOMES
+from geswarm.sim.kernels.table import IDENTITY, MOST_OUTCOMES, ROW_BEHAVIOURS
 
 _ONE = np.uint64(1)
 _OPERATIONS = 0xFFFFFFC0
@@ -120,6 +120,17 @@ def without_zeros(keys: Any, shares: Any, length: int) -> Any:
 
 
 @called
+def _chance(encoded: Any, rule: int, code: int) -> float:
+    """How probably a rule's preconditions hold, of which those that are true or false do."""
+    row, chance = encoded.drawn[rule], 1.0
+    if row >= 0:
+        for reading in range(len(encoded.values)):
+            chance *= encoded.holding[row, reading, code % encoded.values[reading]]
+            code //= encoded.values[reading]
+    return chance
+
+
+@called
 def decide(encoded: Any, room: Any, number: int, row: int, behaviour: int, signature: Any,
             start: int, known: int) -> bool:  # fmt: skip
     """Outcomes of one class and behaviour; False if they are too many."""
@@ -132,10 +143,14 @@ def decide(encoded: Any, room: Any, number: int, row: int, behaviour: int, signa
         if not (signature >> np.uint64(rule - first_rule)) & _ONE:
             continue
         acting, waiting = 0, 0
+        chance = _chance(encoded, rule, room.code_of_class[row // ROW_BEHAVIOURS])
         for k in range(length):
             if (encoded.behaviours[rule] >> ((keys[k] >> 1) & 31)) & 1:
-                active_keys[acting], active[acting] = keys[k], shares[k]
+                active_keys[acting], active[acting] = keys[k], shares[k] * chance
                 acting += 1
+                if chance < 1.0:
+                    keys[waiting], shares[waiting] = keys[k], shares[k] * (1.0 - chance)
+                    waiting += 1
             else:
                 keys[waiting], shares[waiting] = keys[k], shares[k]
                 waiting += 1

@@ -3,9 +3,9 @@
     readings -> code -> class -> row (class, behaviour) -> slot -> outcome
 
 The readings of the sensors are one mixed-radix number, the code. Codes in which the same rules may
-act are one class. A row's outcomes are spread over a power of two of slots of equal probability,
-each shared by at most two (alias method, Walker 1977): the upper bits of a random number choose the
-slot, the next ones which of the two.
+act, with the same chances, are one class. A row's outcomes are spread over a power of two of slots
+of equal probability, each shared by at most two (alias method, Walker 1977): the upper bits of a
+random number choose the slot, the next ones which of the two.
 
 An outcome says how the robot's registers change, not what they become, so they are no part of the
 row: first clear bits, then set bits; add to the counter, then keep it between two bounds. What a
@@ -35,7 +35,8 @@ ROW_BEHAVIOURS = 32
 MOST_OUTCOMES = 128
 """Of one row."""
 MOST_RULES = 64
-"""Of a rule set, with one for each bit of a register that it changes and that is read."""
+"""Of a rule set, with one for each bit of a register that it changes and that is read, and of the
+number of a reading's cell if rules act by chance."""
 MOST_CLASSES = 1024
 _MOST_READINGS, _MOST_CODES = 16, 65_536
 _MOST_ROWS = MOST_CLASSES * ROW_BEHAVIOURS
@@ -58,6 +59,9 @@ class Encoded(NamedTuple):
         instances: int64, shape (rule sets,), how many behaviours each has.
         restarting: int64, shape (rule sets,), mask of those that start afresh when changed to.
         accepted: uint64, shape (rules, readings), values with which a rule may act, as bits.
+        drawn: int64, shape (rules,), row of `holding` of a rule that acts by chance, else -1.
+        holding: float64, shape (rules that act by chance, readings, 64), how probably each value of
+            a reading lets the rule act; the chances of all readings multiply.
         behaviours: int64, shape (rules,), mask of the behaviours in which it may act.
         action_ends: int64, shape (rules,), where the actions of each end.
         chances: float64, shape (actions,).
@@ -74,6 +78,8 @@ class Encoded(NamedTuple):
     instances: Any
     restarting: Any
     accepted: Any
+    drawn: Any
+    holding: Any
     behaviours: Any
     action_ends: Any
     chances: Any
@@ -106,6 +112,10 @@ ROOM = np.dtype(
         ("halves", np.uint16, (2, _MOST_CODES)),
         ("pair_class", np.int32, (MOST_CLASSES, MOST_CLASSES)),
         ("class_of_code", np.int32, (2, _MOST_CODES)),
+        ("code_of_class", np.int64, MOST_CLASSES),  # one of its codes
+        ("drawing", np.uint64, _MOST_READINGS),  # rules that act by chance if a reading has cells
+        ("cell_bits", np.uint64, _MOST_READINGS),  # of the number of a reading's cell
+        ("cell", np.int64, 64),  # of each value of a reading
         ("start", np.int64, (2, MOST_CLASSES)),  # known values of the registers' bits in each class
         ("keys", np.int64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # outcomes of each row, sorted
         ("shares", np.float64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # how probable each is

@@ -6,108 +6,17 @@ from typing import Any
 
 import numpy as np
 
+from geswarm.sim.kernels.classify import classify, let_through
 from geswarm.sim.kernels.jit import called, kernel
 from geswarm.sim.kernels.outcomes import decide, find, insert, without_zeros
 from geswarm.sim.kernels.table import (
     IDENTITY,
     MOST_OUTCOMES,
-    MOST_RULES,
     ROW_BEHAVIOURS,
     THRESHOLD_BITS,
 )
 
-_ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
-_ONE = np.uint64(1)
-_UNKNOWN, _ALWAYS_0, _ALWAYS_1 = -1, -2, -3
-
-
-@called
-def _distinct(room: Any, values: Any, first: int, end: int, codes: int, half: int) -> int:
-    """Number the distinct sets of rules that some of the readings let through."""
-    found = 0
-    for code in range(codes):
-        signature, rest = _ALL, code
-        for reading in range(first, end):
-            signature &= room.class_key[reading, rest % values[reading]]
-            rest //= values[reading]
-        at = 0
-        while at < found and room.signatures[half, at] != signature:
-            at += 1
-        if at == found:
-            room.signatures[half, at] = signature
-            found += 1
-        room.halves[half, code] = at
-    return found
-
-
-@called
-def _classify(encoded: Any, room: Any) -> int:
-    """The class of each code, by which rules may act; how many classes there are.
-
-    The readings are taken in two halves, so that only their distinct sets of rules are compared.
-    """
-    values, readings = encoded.values, len(encoded.values)
-    codes = 1
-    for reading in range(readings):
-        codes *= values[reading]
-    half, low_codes = 0, 1
-    while half < readings and low_codes * values[half] * low_codes <= codes * 2:
-        low_codes *= values[half]
-        half += 1
-    lows = _distinct(room, values, 0, half, low_codes, 0)
-    highs = _distinct(room, values, half, readings, codes // low_codes, 1)
-    classes = 0
-    for high in range(highs):
-        for low in range(lows):
-            signature = room.signatures[0, low] & room.signatures[1, high]
-            at = 0
-            while at < classes and room.signatures[2, at] != signature:
-                at += 1
-            if at == classes:
-                if classes == room.start.shape[1]:
-                    return -1
-                room.signatures[2, at] = signature
-                classes += 1
-            room.pair_class[high, low] = at
-    for code in range(codes):
-        high, low = room.halves[1, code // low_codes], room.halves[0, code % low_codes]
-        room.class_of_code[0, code] = room.pair_class[high, low]
-    return classes
-
-
-@called
-def _let_through(encoded: Any, room: Any, number: int) -> int:
-    """Which rules each value of each reading lets through; the mask of the known bits.
-
-    The bits of a register that the rules change and a sensor reads are rules like any other here:
-    where they differ, so do the outcomes.
-    """
-    first_rule = encoded.rule_ends[number - 1] if number else 0
-    rules = encoded.rule_ends[number] - first_rule
-    first_action = encoded.action_ends[first_rule - 1] if first_rule else 0
-    last_action = encoded.action_ends[first_rule + rules - 1] if rules else first_action
-    touched = 0
-    for a in range(first_action, last_action):
-        touched |= encoded.changes[a, 0]
-    for reading in range(len(encoded.values)):
-        for value in range(encoded.values[reading]):
-            key = _ALL
-            for rule in range(rules):
-                if not (encoded.accepted[first_rule + rule, reading] >> np.uint64(value)) & _ONE:
-                    key ^= _ONE << np.uint64(rule)
-            room.class_key[reading, value] = key
-    known, extra = 0, rules
-    for bit in range(len(encoded.known)):
-        reading = encoded.known[bit]
-        if reading == _UNKNOWN:
-            continue
-        known |= 1 << bit
-        if reading >= 0 and (touched >> bit) & 1:
-            for value in range(encoded.values[reading]):
-                if not (value >> encoded.known_shift[bit]) & 1:
-                    room.class_key[reading, value] ^= _ONE << np.uint64(extra)
-            extra += 1
-    return known if extra <= MOST_RULES else -1
+_ALWAYS_1 = -3
 
 
 @called
@@ -126,6 +35,7 @@ def _starts(encoded: Any, room: Any, codes: int) -> None:
                 value = rest % encoded.values[reading]
                 start |= ((value >> encoded.known_shift[bit]) & 1) << bit
         room.start[0, room.class_of_code[0, code]] = start
+        room.code_of_class[room.class_of_code[0, code]] = code
 
 
 @called
@@ -325,8 +235,8 @@ def build_compile_tables(version: int) -> Any:
                 if classes < 0:
                     return -1 - number
             else:
-                known = _let_through(encoded, room, number)
-                classes = _classify(encoded, room) if known >= 0 else -1
+                known = let_through(encoded, room, number)
+                classes = classify(encoded, room) if known >= 0 else -1
                 if classes < 0:
                     return -1 - number
                 _starts(encoded, room, codes)

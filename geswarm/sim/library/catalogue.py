@@ -168,7 +168,7 @@ def _percept(percept: Percept, vocabulary: Vocabulary | None) -> Entry:
         values, signs = vocabulary.values_of(word.name), vocabulary.comparisons_of(word.name)
     else:
         readings = range(percept.sensor.values)
-        values = (False, True) if word.truth else tuple(map(percept.value, readings))
+        values = (False, True) if word.truth or word.chance else tuple(map(percept.value, readings))
         counts = not isinstance(values[0], bool | str)
         signs = tuple(COMPARISONS) if counts else ("==", "!=")
     return Entry(

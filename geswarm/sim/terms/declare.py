@@ -40,6 +40,7 @@ def percept(
     holds: str = "",
     fails: str = "",
     truth: Callable[..., bool] | None = None,
+    chance: Callable[..., float] | None = None,
     names: Sequence[str] = (),
 ) -> Percept:
     """What rules call a sensor's reading.
@@ -52,16 +53,21 @@ def percept(
             {comparison} {value} robots near`.
         fails: Phrase for one that is false.
         truth: Makes it true or false of a reading and the arguments; None compares the reading.
+        chance: Instead, makes of them the probability that it is true; each rule draws it anew.
         names: What the readings are called, if they are no numbers.
     """
     _require_words(name, arguments, (holds, fails))
-    if of.values == 2 and truth is None and not names and not arguments:
+    said = truth or chance
+    if truth and chance:
+        raise ValueError(f"{name}: expected truth or chance, got both")
+    if of.values == 2 and said is None and not names and not arguments:
         word = PreconditionName(name, holds or name, fails or f"not {name}")
         return Percept(word, of, bool)
     holds = holds or (
-        name if truth else f"{{value}} {name}" if names else f"{name} {{comparison}} {{value}}"
+        name if said else f"{{value}} {name}" if names else f"{name} {{comparison}} {{value}}"
     )
-    word = PreconditionName(name, holds, fails or f"not {holds}", of.name, arguments, truth)
+    fails = fails or f"not {holds}"
+    word = PreconditionName(name, holds, fails, of.name, arguments, truth, chance)
     return Percept(word, of, names.__getitem__ if names else int)
 
 

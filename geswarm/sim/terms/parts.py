@@ -215,6 +215,12 @@ class Parts:
         return math.prod(each.values for each in self.sensors if each not in seen)
 
     @cached_property
+    def drawn_sensors(self) -> tuple[Sensor, ...]:
+        """The sensors on which percepts depend by chance."""
+        drawn = {each.sensor for each in self.percepts if each.word.chance}
+        return tuple(each for each in self.sensors if each in drawn)
+
+    @cached_property
     def arguments(self) -> int:
         """The most arguments that a behaviour has."""
         return max(len(each.arguments) for each in self.behaviours)

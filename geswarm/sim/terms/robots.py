@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geswarm.automode.modules import crowded_chance
 from geswarm.rules.arguments import Number, Whole
 from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import ONE, TWO, ZERO, F, I
@@ -34,6 +35,32 @@ IS_CLOSE_TO = percept(
     truth=lambda near, k: near >= k,
     holds="close to at least {k} robots",
     fails="close to fewer than {k} robots",
+)
+
+
+@sensor(values=21)
+def heard(near: Integer) -> Integer:
+    """Robots within `rab_range`, at most 20."""
+    return near if near < I(20) else I(20)
+
+
+_CROWD = (Whole("xi", 1, 10, "robots"), Number("eta", 0.0, 20.0, 0.5))
+
+CROWDED = percept(
+    "CROWDED",
+    heard,
+    *_CROWD,
+    chance=lambda near, xi, eta: crowded_chance(xi, eta, near),
+    holds="with many robots near (xi {xi}, eta {eta})",
+    fails="not with many robots near (xi {xi}, eta {eta})",
+)
+ALONE = percept(
+    "ALONE",
+    heard,
+    *_CROWD,
+    chance=lambda near, xi, eta: 1.0 - crowded_chance(xi, eta, near),
+    holds="with few robots near (xi {xi}, eta {eta})",
+    fails="not with few robots near (xi {xi}, eta {eta})",
 )
 
 

@@ -20,6 +20,14 @@ COUNTING = REMEMBERING.with_changes(
 )
 """The same with few enough behaviours for all decisions to be counted."""
 
+MEETING = COUNTING.with_changes(
+    name="meeting",
+    zone_miss=0.2,
+    preconditions=("ON_BLACK", "ON_WHITE", "CROWDED", "ALONE"),
+    registers=("MODE(red, green, blue)",),
+)
+"""Robots that count others, and take them for many or few by chance."""
+
 SENSING = parse_scenario(
     """
 extends: nothing

@@ -6,7 +6,7 @@ from scipy import stats
 
 from geswarm.rules import load_preset, parse_text
 from geswarm.sim import World, evaluate, vocabulary_of
-from tests.sim.terms.scenarios import AAC, REMEMBERING, SENSING
+from tests.sim.terms.scenarios import AAC, MEETING, REMEMBERING, SENSING
 
 RULES = {
     "aac": load_preset("aac", vocabulary_of(AAC)),
@@ -23,6 +23,17 @@ RULES = {
         """,
         vocabulary=vocabulary_of(REMEMBERING),
     ),
+    "meeting": parse_text(
+        """
+        rule if CROWDED(2, 1.5) == true while RANDOM_WALK do p = 0.3, STOP
+        rule if ALONE(3, 2) == true while STOP do p = 0.1, MODE = green do p = 0.2, RANDOM_WALK
+        rule if ALONE(1, 0.5) == false and CROWDED(3, 2) == false and MODE == green
+             do p = 0.5, PHOTOTAXIS do p = 1, MODE = red
+        rule if CROWDED(1, 1) == false while PHOTOTAXIS do p = 0.1, ANTI-PHOTOTAXIS
+        rule if ON_BLACK == true do p = 0.1, RANDOM_WALK
+        """,
+        vocabulary=vocabulary_of(MEETING),
+    ),
     "sensing": parse_text(
         """
         rule if SEES_OBSTACLE == true do p = 0.3, RANDOM_WALK(1, 5)
@@ -38,7 +49,11 @@ RULES = {
 
 @pytest.mark.parametrize(
     "scenario",
-    [AAC, *(pytest.param(each, marks=pytest.mark.long) for each in (REMEMBERING, SENSING))],
+    [
+        AAC,
+        MEETING,
+        *(pytest.param(each, marks=pytest.mark.long) for each in (REMEMBERING, SENSING)),
+    ],
     ids=lambda each: each.name,
 )
 def test_worlds_and_batches_are_alike(scenario):

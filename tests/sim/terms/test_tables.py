@@ -13,10 +13,10 @@ from geswarm.sim.controllers.program import Instances
 from geswarm.sim.controllers.spaces import sensed_values, state_values
 from geswarm.sim.controllers.tables import compile_controllers
 from geswarm.sim.kernels.table import ROW_BEHAVIOURS
-from tests.sim.terms.scenarios import COUNTING, REMEMBERING, SENSING, rule_sets
+from tests.sim.terms.scenarios import COUNTING, MEETING, REMEMBERING, SENSING, rule_sets
 
 scenarios = pytest.mark.parametrize(
-    "scenario", [REMEMBERING, SENSING], ids=lambda scenario: scenario.name
+    "scenario", [REMEMBERING, SENSING, MEETING], ids=lambda scenario: scenario.name
 )
 
 
@@ -139,16 +139,17 @@ def test_a_table_draws_what_the_rules_say(scenario, data, miss):
                 assert p > 0 or found.get(outcome, 0) == 0
 
 
+@pytest.mark.parametrize("scenario", [COUNTING, MEETING], ids=lambda scenario: scenario.name)
 @given(data=st.data(), seed=st.integers(0, 2**32))
 @few(8)
-def test_worlds_come_from_situations_to_outcomes_as_often_as_the_rules_say(data, seed):
-    vocabulary = parts_of(COUNTING).vocabulary
+def test_worlds_come_from_situations_to_outcomes_as_often_as_the_rules_say(scenario, data, seed):
+    vocabulary = parts_of(scenario).vocabulary
     rule_set = data.draw(rule_sets(vocabulary))
     exact = exact_table(rule_set, vocabulary)
-    world = World(COUNTING, rule_set, seed)
+    world = World(scenario, rule_set, seed)
     world.step(100)
     counted = world.decisions
-    assert counted.sum() == 100 * COUNTING.robots
+    assert counted.sum() == 100 * scenario.robots
     assert not counted[exact.probabilities == 0].any()
     rows = np.flatnonzero(counted.sum(axis=1))
     mean = counted[rows].sum(axis=1, keepdims=True) * exact.probabilities[rows]
