@@ -53,7 +53,7 @@ def test_the_example_is_short():
 def test_the_example_is_offered_as_any_term(example, capsys):
     offered = printed(capsys, "terms", "--scenario", "alone.yaml")
     for words in (
-        "CROWDED(k)",
+        "PACKED(k)",
         "APPROACH(pace)",
         "To the light, at a share of full speed",
         "alone",
@@ -100,15 +100,15 @@ def test_what_is_wrong_with_the_example_is_told_as_the_readme_says(example):
         ("in_lit", "in_lid", "alone.py, line 26: alone names in_lid, which is"),
         ("def alone", "def alon", "measures 1: unknown measure alone; did you mean alon?"),
         (
-            '"CROWDED"',
-            '"CROWD"',
-            "unknown precondition CROWDED; did you mean CROWD?",
+            '"PACKED"',
+            '"PACK"',
+            "unknown precondition PACKED; did you mean PACK?",
         ),
         ("1, 7)", "1, 9**9)", "line 17: ValueError: k: expected at most 1000 values"),
         ("1, 7)", "'a', 7)", "line 17: ValueError: k: expected numbers, got 'a'"),
-        ("crowd, Whole", "crowd, crowd, Whole", "CROWDED: expected arguments Whole, Number or"),
-        ("7), truth", "7), holds='{n}', truth", "CROWDED: '{n}': expected one of k, compar"),
-        ("7), truth", "7), fails='{', truth", "CROWDED: '{': Single '{'"),
+        ("crowd, Whole", "crowd, crowd, Whole", "PACKED: expected arguments Whole, Number or"),
+        ("7), truth", "7), holds='{n}', truth", "PACKED: '{n}': expected one of k, compar"),
+        ("7), truth", "7), fails='{', truth", "PACKED: '{': Single '{'"),
         ("values=8", "values='8'", "line 11: ValueError: expected a whole number of values"),
         ("# alone.py", "raise SystemExit", "alone.py, line 1: SystemExit"),
         ("    return I(d2", "    if d2:\n        return I(d2", "alone.py, line 8: is_beside: `if`"),

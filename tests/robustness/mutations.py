@@ -30,7 +30,7 @@ PYTHON_WORDS = (
     "values=10**9", "values='x'", "Whole('k', 5, 1)", "Whole('k', 1, 9**9)",
     "Number('pace', 0, 0, 0)", "Number('pace', 1, 0, 0.1)", "Choice('c', ())", "sensor", "percept",
     "behaviour", "measure", "count", "total", "vector_sum", "crowd", "approach", "alone",
-    '"CROWDED"', '"STOP"', '"crowded"', '""', '"\\ud800"', "unit=1", "at='never'", "kind=str",
+    '"PACKED"', '"STOP"', '"crowded"', '""', '"\\ud800"', "unit=1", "at='never'", "kind=str",
     "holds='{nowhere}'", "holds='{'", "truth=None", "truth=lambda *x: 1 / 0", "[]", "{}", '"' * 3,
     "#", "\\", "\t", "é", "\ufeff",
 )  # fmt: skip

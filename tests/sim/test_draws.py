@@ -47,10 +47,10 @@ def test_purposes_are_all_different():
     purposes = [
         value for name, value in vars(draws).items() if name.isupper() and isinstance(value, int)
     ]
-    assert len(set(purposes)) == len(purposes) == 16
+    assert len(set(purposes)) == len(purposes) == 17
     # Above the first action come all others, far fewer than lie below the e-pucks' purposes.
     above = sorted(value for value in purposes if value > draws.FIRST_ACTION)
-    assert above == [draws.E_PUCK, draws.MESSAGE]
+    assert above == [draws.E_PUCK, draws.MESSAGE, draws.FIRST_CHANCE]
     assert draws.E_PUCK - draws.FIRST_ACTION > 1_000_000
 
 

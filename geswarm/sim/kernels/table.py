@@ -120,6 +120,8 @@ ROOM = np.dtype(
         ("keys", np.int64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # outcomes of each row, sorted
         ("shares", np.float64, (2, _MOST_ROWS, MOST_OUTCOMES)),  # how probable each is
         ("lengths", np.int64, (2, _MOST_ROWS)),  # how many they are
+        ("marks", np.float64, _MOST_ROWS),  # equal for equal rows
+        ("distinct", np.int64, _MOST_ROWS),  # rows that equal no earlier one
         ("few_keys", np.int64, (2, 2 * MOST_OUTCOMES)),
         ("few_shares", np.float64, (3, 2 * MOST_OUTCOMES)),
     ],

@@ -131,15 +131,17 @@ def _write(room: Any, tables: Any, at: Any, classes: int, behaviours: int) -> bo
         slot_bits += 1
     if at[1] + classes * ROW_BEHAVIOURS > len(tables.rows):
         return False
-    slot = at[2]
+    slot, distinct = at[2], 0
     for row in range(classes * ROW_BEHAVIOURS):
         if row % ROW_BEHAVIOURS >= behaviours:
             tables.rows[at[1] + row] = 0
             continue
-        same = _same_row(room, row, behaviours)
+        same = _same_row(room, row, distinct)
         if same >= 0:
             tables.rows[at[1] + row] = tables.rows[at[1] + same]
             continue
+        room.distinct[distinct] = row
+        distinct += 1
         bits = slot_bits if room.lengths[0, row] > 1 else 0
         if slot + (1 << bits) > len(tables.thresholds):
             return False
@@ -152,11 +154,16 @@ def _write(room: Any, tables: Any, at: Any, classes: int, behaviours: int) -> bo
 
 
 @called
-def _same_row(room: Any, row: int, behaviours: int) -> int:
-    """An earlier row with the same distribution, or -1."""
+def _same_row(room: Any, row: int, distinct: int) -> Any:
+    """Which of the rows that are distinct so far has the same distribution, or -1."""
     length = room.lengths[0, row]
-    for other in range(row):
-        if other % ROW_BEHAVIOURS >= behaviours or room.lengths[0, other] != length:
+    mark = float(length)
+    for k in range(length):
+        mark += room.shares[0, row, k] * (1.0 + room.keys[0, row, k])
+    room.marks[row] = mark
+    for at in range(distinct):
+        other = room.distinct[at]
+        if room.marks[other] != mark or room.lengths[0, other] != length:
             continue
         same = True
         for k in range(length):
