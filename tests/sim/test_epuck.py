@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geswarm.rules.model import Term
+from geswarm.automode import Behaviour, Machine, State
+from geswarm.automode.modules import BEHAVIOURS
 from geswarm.sim import load_scenario, parts_of
 from geswarm.sim.arena.model import Polygon
 from geswarm.sim.batch import Group
-from geswarm.sim.controllers.machines import Machine, State
 from geswarm.sim.controllers.tables import compile_controllers
 from tests.sim.epuck_twin import Robot, Twin
 
@@ -49,7 +49,8 @@ def group_of(behaviour, argument, poses):
     scenario = scenario.with_changes(robots=poses.shape[1], **changes)
     parts = parts_of(scenario)
     takes = behaviour in NAMES.values()
-    machine = Machine((State(Term(behaviour, (argument,) if takes else ())),))
+    (number,) = (at for at, module in BEHAVIOURS.items() if module.term == behaviour)
+    machine = Machine((State(Behaviour(number, argument if takes else None)),))
     controllers = compile_controllers([machine], [0.0] * len(parts.sensors), parts)
     group = Group(controllers, scenario, np.array([(0, 1, 0, 0)] * len(poses)))
     x, y, heading = poses.T

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geswarm.automode import read_machines
 from geswarm.sim import load_scenario, parts_of
 from geswarm.sim.batch import Group
 from geswarm.sim.controllers.tables import compile_controllers
-from tests.sim.fsm_text import machine_of
 
 REFERENCE = json.loads(Path(__file__).with_name("epuck_reference.json").read_text())
 RUNS, SEED = 48, 7
@@ -31,7 +31,7 @@ def group_of(case):
     scenario = scenario.with_changes(arena=arena, **changes)
     parts = parts_of(scenario)
     sure = [0.0] * len(parts.sensors)
-    controllers = compile_controllers([machine_of(case["machine"])], sure, parts)
+    controllers = compile_controllers(read_machines(case["machine"]), sure, parts)
     return Group(controllers, scenario, np.array([(0, SEED, 0, run) for run in range(RUNS)]))
 
 

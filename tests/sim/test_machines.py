@@ -1,26 +1,21 @@
 """State machines with AutoMoDe's meaning, as control tables and as they run."""
 
-import itertools
-
 import numpy as np
 import pytest
 
-from geswarm.rules.model import Term
+from geswarm.automode import read_machines
+from geswarm.automode.modules import crowded_chance
 from geswarm.sim import evaluate, load_scenario, parts_of
-from geswarm.sim.controllers.machines import (
-    Machine,
-    State,
-    Transition,
-    instances_of,
-    outcomes_of,
-    shares_in_random_order,
-)
-from geswarm.sim.terms.automode import chance_of_neighbours
-from tests.sim.fsm_text import machine_of
+from geswarm.sim.controllers.machines import instances_of, outcomes_of
+
+
+def machine_of(text):
+    (machine,) = read_machines(text)
+    return machine
+
 
 AAC = load_scenario("epuck-aac")
 PARTS = parts_of(AAC)
-STOP = Term("STOP")
 TEXT = (
     "--nstates 3 --s0 0 --rwm0 4 --n0 2 --n0x0 0 --c0x0 0 --p0x0 0.3 --n0x1 1 --c0x1 5 --p0x1 0.2 "
     "--s1 1 --n1 1 --n1x0 1 --c1x0 3 --p1x0 2 --w1x0 1.5 --s2 4 --att2 4.6"
@@ -31,22 +26,10 @@ def code_of(floor, heard):
     return floor + 3 * heard
 
 
-def test_shares_of_what_comes_first_are_those_of_all_orders_and_outcomes():
-    chances = (0.2, 0.9, 0.5)
-    expected = np.zeros(3)
-    orders = list(itertools.permutations(range(3)))
-    for order, holds in itertools.product(orders, itertools.product((0, 1), repeat=3)):
-        weight = np.prod([p if h else 1 - p for p, h in zip(chances, holds, strict=True)])
-        first = next((at for at in order if holds[at]), None)
-        if first is not None:
-            expected[first] += weight / len(orders)
-    assert shares_in_random_order(chances) == pytest.approx(expected)
-
-
 def test_outcomes_are_a_states_transitions_once_it_is_no_longer_new():
     machine = machine_of(TEXT)
     terms = instances_of(machine, PARTS)
-    assert terms == tuple(s.behaviour for s in machine.states for _ in range(2))
+    assert terms == tuple(s.behaviour.term for s in machine.states for _ in range(2))
     table = outcomes_of(machine, PARTS, 6).reshape(PARTS.codes, 6, 6, PARTS.states, 2)
     assert table.sum(axis=(2, 3, 4)) == pytest.approx(np.ones((PARTS.codes, 6)))
     # Just entered: nothing is looked at. Later: black and fixed, in both orders.
@@ -57,38 +40,15 @@ def test_outcomes_are_a_states_transitions_once_it_is_no_longer_new():
     assert table[on_black, 1, 4, 0, 1] == pytest.approx(0.2 * (1 + 0.7) / 2)
     assert table[on_grey, 1, [2, 4], 0, 1] == pytest.approx([0.0, 0.2])
     for heard in range(5):
-        expected = chance_of_neighbours(heard, 2, 1.5)
+        expected = crowded_chance(2, 1.5, heard)
         assert table[code_of(2, heard), 3, 4, 0, 1] == pytest.approx(expected)
     assert (table[:, 5, 5, 0, 0] == 1.0).all()
 
 
-def test_a_neighbour_count_is_a_logistic_function_without_overflow():
-    assert chance_of_neighbours(3, 3, 10) == 0.5
-    assert chance_of_neighbours(4, 3, 2) == pytest.approx(1 / (1 + np.exp(-2)))
-    assert chance_of_neighbours(0, 10, 1e6) == 0.0
-    assert chance_of_neighbours(31, 1, 1e6) == 1.0
-
-
-@pytest.mark.parametrize(
-    ("states", "message"),
-    [
-        ((), "expected 1 to 16 states, got 0"),
-        ((State(STOP, (Transition("fixed", 1, 0.5),)),), "state 0: there is no state 1"),
-        ((State(STOP, (Transition("blue", 0, 0.5),)),), "expected grey, .*, got blue"),
-    ],
-)
-def test_what_is_no_machine_is_refused(states, message):
-    with pytest.raises(ValueError, match=message):
-        Machine(states)
-
-
-@pytest.mark.parametrize(
-    ("behaviour", "message"),
-    [(Term("RANDOM_WALK"), "not on offer"), (Term("EXPLORATION"), "expected 1 arguments")],
-)
-def test_behaviours_that_there_are_not_are_refused(behaviour, message):
-    with pytest.raises(ValueError, match=message):
-        instances_of(Machine((State(behaviour),)), PARTS)
+def test_behaviours_that_there_are_not_are_refused():
+    aac = parts_of(load_scenario("aac"))
+    with pytest.raises(ValueError, match="EXPLORATION is not on offer"):
+        instances_of(machine_of("--nstates 1 --s0 0 --rwm0 5"), aac)
 
 
 def test_results_do_not_depend_on_what_runs_beside():

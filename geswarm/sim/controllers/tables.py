@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.automode import Machine
 from geswarm.rules.control_table import ControlTable
 from geswarm.rules.model import RuleSet
 from geswarm.rules.names import require_known_names
@@ -16,7 +17,6 @@ from geswarm.rules.space import Space
 from geswarm.sim.assembly.records import GROUP
 from geswarm.sim.compiled import compile_tables
 from geswarm.sim.controllers import machines
-from geswarm.sim.controllers.machines import Machine
 from geswarm.sim.controllers.program import Instances, encode, encoded
 from geswarm.sim.controllers.spaces import percepts_of_codes
 from geswarm.sim.kernels.table import (

@@ -6,9 +6,8 @@ code does and 0 where they are to do what is meant.
 
 from __future__ import annotations
 
-import math
-
-from geswarm.rules.arguments import Whole
+from geswarm.automode.modules import crowded_chance
+from geswarm.rules.arguments import Number, Whole
 from geswarm.sim.bodies import E_PUCK
 from geswarm.sim.kernels.single import ONE, ZERO, F, I, fma, fraction
 from geswarm.sim.terms.component import Bits, Integer, Real
@@ -31,6 +30,10 @@ _ASIDE = F(1e-3)  # what is straight behind is to neither side
 MOST_HEARD = 31
 
 
+FLOORS = ("grey", "black", "white")
+"""By reading."""
+
+
 @sensor(values=3)
 def floor_below(ground: Integer) -> Integer:
     """The floor as most of the last readings of three sensors have it."""
@@ -40,7 +43,7 @@ def floor_below(ground: Integer) -> Integer:
 FLOOR = percept(
     "FLOOR",
     floor_below,
-    names=("grey", "black", "white"),
+    names=FLOORS,
     holds="on {value}",
     fails="on a floor that is not {value}",
 )
@@ -53,6 +56,26 @@ def messages(heard: Integer) -> Integer:
 
 
 HEARD = percept("HEARD", messages, holds="hearing {comparison} {value} robots")
+
+
+_CROWD = (Whole("xi", 1, 10, "robots"), Number("eta", 0.0, 20.0, 0.5))
+
+CROWDED = percept(
+    "CROWDED",
+    messages,
+    *_CROWD,
+    chance=lambda heard, xi, eta: crowded_chance(xi, eta, heard),
+    holds="hearing many robots (xi {xi}, eta {eta})",
+    fails="not hearing many robots (xi {xi}, eta {eta})",
+)
+ALONE = percept(
+    "ALONE",
+    messages,
+    *_CROWD,
+    chance=lambda heard, xi, eta: 1.0 - crowded_chance(xi, eta, heard),
+    holds="hearing few robots (xi {xi}, eta {eta})",
+    fails="not hearing few robots (xi {xi}, eta {eta})",
+)
 
 
 @update(writes={"turn_until": I})
@@ -115,21 +138,22 @@ def from_the_light(light_x: Real, light_y: Real, prox_x: Real, prox_y: Real) -> 
 
 @behaviour(
     "ATTRACTION",
-    Whole("att", 1, 5),
+    Number("att", 1.0, 5.0, 0.5),
     doing="going to the robots that it hears (gain {att})",
     starting="go to the robots that it hears (gain {att})",
 )
 def to_the_heard(
-    att: Real, rab_x: Real, rab_y: Real, prox_x: Real, prox_y: Real
+    att: Real, published: Real, rab_x: Real, rab_y: Real, prox_x: Real, prox_y: Real
 ) -> tuple[Real, Real]:
-    """To the robots heard: for each message att / (1 + gap in cm); away from obstacles."""
+    """To the robots heard: for each message att, whole as published, / (1 + gap in cm)."""
+    att = F(I(att)) if published != ZERO else att
     away = -_AWAY_TO_NEIGHBOURS
     return fma(away, prox_x, att * rab_x), fma(away, prox_y, att * rab_y)
 
 
 @behaviour(
     "REPULSION",
-    Whole("rep", 1, 5),
+    Number("rep", 1.0, 5.0, 0.5),
     doing="going away from the robots that it hears (gain {rep})",
     starting="go away from the robots that it hears (gain {rep})",
 )
@@ -137,7 +161,8 @@ def from_the_heard(
     rep: Real, published: Real, rab_x: Real, rab_y: Real, prox_x: Real, prox_y: Real
 ) -> tuple[Real, Real]:
     """Away from the robots heard, for each rep / (1 + gap in cm); times rep again as published."""
-    gain = -rep * (rep if published != ZERO else ONE)
+    whole = F(I(rep))
+    gain = -whole * whole if published != ZERO else -rep
     return fma(-_AWAY, prox_x, gain * rab_x), fma(-_AWAY, prox_y, gain * rab_y)
 
 
@@ -180,9 +205,3 @@ def unvisited(x: Real, y: Real) -> Integer:
     column, row = I((x + _EDGE) / _CELL), I((y + _EDGE) / _CELL)
     column, row = I(column if column < _ROW else I(9)), I(row if row < _ROW else I(9))
     return I(column * _ROW + row)
-
-
-def chance_of_neighbours(heard: int, xi: float, eta: float) -> float:
-    """With which probability AutoMoDe's neighbour count holds, of so many messages in a step."""
-    exponent = eta * (xi - heard)
-    return 0.0 if exponent > 700.0 else 1.0 / (1.0 + math.exp(exponent))
