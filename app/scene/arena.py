@@ -10,6 +10,7 @@ import numpy as np
 import viser
 
 from geswarm.sim import Scenario, vocabulary_of
+from geswarm.sim.bodies import FOOT_BOT
 
 from .. import palette
 from ..palette import Colour
@@ -100,6 +101,7 @@ class ShownArena:
         """
         self.remove()
         self._scene, self._extent = scene, max(scenario.width, scenario.length)
+        self._size = scenario.robot.radius / FOOT_BOT.radius
         self._colours = palette.behaviour_colours(vocabulary_of(scenario))
         self._linear = np.array([palette.linear(c) for c in self._colours], dtype=np.uint8)
         self.handles = ArenaHandles(
@@ -172,13 +174,19 @@ class ShownArena:
 
     def _new_robots(self, count: int, detail: Detail) -> RobotHandles:
         look = footbot() if detail is Detail.FULL else distant_footbot()
+
+        def batch(
+            name: str, mesh: Mesh, colour: Colour, opacity: float | None = None
+        ) -> viser.BatchedMeshHandle:
+            return self._batch(name, mesh, count, colour, opacity, self._size)
+
         robots = RobotHandles(
-            shadows=self._batch("shadows", look.shadow, count, (10, 12, 18), opacity=0.4),
-            glows=self._batch("glows", look.glow, count, _TRIM, opacity=0.13),
-            bodies=self._batch("bodies", look.body, count, _BODY),
-            trims=self._batch("trims", look.trim, count, _TRIM),
-            leds=self._batch("leds", look.leds, count, _TRIM),
-            carried=self._batch("carried", look.carried, count, palette.OBJECT),
+            shadows=batch("shadows", look.shadow, (10, 12, 18), 0.4),
+            glows=batch("glows", look.glow, _TRIM, 0.13),
+            bodies=batch("bodies", look.body, _BODY),
+            trims=batch("trims", look.trim, _TRIM),
+            leds=batch("leds", look.leds, _TRIM),
+            carried=batch("carried", look.carried, palette.OBJECT),
         )
         self._tell("robot", robots.posed)
         return robots
@@ -188,11 +196,17 @@ class ShownArena:
             self.on_made(kind, batches)
 
     def _batch(
-        self, name: str, mesh: Mesh, count: int, colour: Colour, opacity: float | None = None
+        self,
+        name: str,
+        mesh: Mesh,
+        count: int,
+        colour: Colour,
+        opacity: float | None = None,
+        size: float = 1.0,
     ) -> viser.BatchedMeshHandle:
         return self._scene.add_batched_meshes_simple(
             f"{self.root}/{name}",
-            mesh.vertices,
+            mesh.vertices * np.float32(size),
             mesh.faces,
             batched_wxyzs=np.tile(_UPRIGHT, (count, 1)),
             batched_positions=np.zeros((count, 3), dtype=np.float32),
