@@ -21,7 +21,7 @@ from websockets.sync.client import connect
 from geswarm.app import dashboard as dashboard_module
 from geswarm.app.dashboard import open_dashboard
 from geswarm.rules import load_preset
-from geswarm.sim import load_scenario
+from geswarm.sim import load_scenario, warm_up
 
 PATIENCE = 120  # s, on a busy machine
 
@@ -91,6 +91,7 @@ def test_a_stop_while_compiling(number, tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_stop_while_running_is_silent_and_leaves_nothing(number, tmp_path):
+    warm_up(interactive=True)  # it says so where it compiles
     with started("--port", "0", XDG_STATE_HOME=str(tmp_path)) as process:
         with open_table(address(process)) as table:
             say(table, type="edit", version=1, edit={"do": "remove_rule", "rule": 3})
