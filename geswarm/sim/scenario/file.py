@@ -17,6 +17,7 @@ from geswarm.rules.limits import MAX_CHARACTERS
 from geswarm.rules.plain_yaml import YamlError, compose, value_of
 from geswarm.sim.arena.checks import Problem
 from geswarm.sim.arena.file import ARENA_KEYS, ArenaFileError, ArenaReader, Given, build, inherited
+from geswarm.sim.parameter import listed
 from geswarm.sim.scenario.checks import (
     OF_THE_ARENA,
     PARAMETERS,
@@ -153,7 +154,7 @@ class _Reader:
         except (OSError, ValueError):  # too long, or with a NUL
             pass
         near = difflib.get_close_matches(name_or_path, names, n=1, cutoff=0.5)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}"
+        hint = f"did you mean {near[0]}?" if near else f"known are {listed(names)}"
         self.wrong(place, f"there is no scenario or file {shown(name_or_path)}; {hint}")
         return None
 

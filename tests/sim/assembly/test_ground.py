@@ -12,7 +12,7 @@ from tests.sim.assembly import ground_twin as twin
 from tests.sim.assembly.arenas import KINDS, MARGIN, PAPER, RADIUS, Run
 
 LANES, SWARM = Layout(), Layout(swarm=True)
-USUAL = ("convex", "star")
+USUAL = ("star",)
 kinds = pytest.mark.parametrize(
     "kind",
     [kind if kind in USUAL else pytest.param(kind, marks=pytest.mark.long) for kind in KINDS],
