@@ -33,6 +33,7 @@ def test_the_ant_finds_all_food():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_formula_is_found():
     best, generations = regression.solve(seed=0)
     assert best.fitness == pytest.approx(1.0)
