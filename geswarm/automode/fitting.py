@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from scipy.optimize import root
+
 from geswarm.automode.machine import Transition
 from geswarm.automode.modules import FIXED, FLOORS, Condition
 
-_MOST_ROUNDS = 1000
+_ROUNDS = 50
 _DIGITS = 12
 
 
 def solved(wanted: Mapping[int, float]) -> dict[int, float]:
     """For up to three targets, the probability of the condition that leads to each.
 
-    For two: p1 (1 - p2 / 2) = q1 and p2 (1 - p1 / 2) = q2. For three by going round and round;
+    For two: p1 (1 - p2 / 2) = q1 and p2 (1 - p1 / 2) = q2. For three numerically;
     beyond, the wanted ones themselves.
 
     Args:
@@ -33,15 +35,22 @@ def solved(wanted: Mapping[int, float]) -> dict[int, float]:
 
 def _of_three(q: Sequence[float]) -> list[float]:
     """Each is true and the first of those that are, with p times its share of the orders."""
+
+    def first(p: Sequence[float], at: int) -> float:
+        """How often a true one is the first of those that are."""
+        one, other = (p[k] for k in range(3) if k != at)
+        return 1 - (one + other) / 2 + one * other / 3
+
     p = list(q)
-    for _ in range(_MOST_ROUNDS):
-        before = list(p)
+    for _ in range(_ROUNDS):  # near it; the rest would take long where all are nearly certain
         for at in range(3):
-            one, other = (p[k] for k in range(3) if k != at)
-            p[at] = min(1.0, q[at] / (1 - (one + other) / 2 + one * other / 3))
-        if max(abs(a - b) for a, b in zip(p, before, strict=True)) < 1e-15:
-            break
-    return p
+            p[at] = min(1.0, q[at] / first(p, at))
+
+    def missed(p: Sequence[float]) -> list[float]:
+        return [p[at] * first(p, at) - q[at] for at in range(3)]
+
+    found = root(missed, p, tol=1e-15)
+    return [float(each) for each in found.x]
 
 
 def ways_to_say(chances: Mapping[str, Mapping[int, float]]) -> list[tuple[Transition, ...]]:

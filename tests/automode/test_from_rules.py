@@ -185,7 +185,7 @@ def test_probabilities_are_found_again(chances):
     again = [(k, p) for k, p in solved(taken).items()]
     found = first_true(again, permutations(range(len(again))))
     assert {k: float(p) for k, p in found.items()} == {
-        k: pytest.approx(p, abs=1e-5) for k, p in taken.items()
+        k: pytest.approx(p, abs=1e-6) for k, p in taken.items()
     }
 
 

@@ -6,11 +6,11 @@ code does and 0 where they are to do what is meant.
 
 from __future__ import annotations
 
-from geswarm.automode.modules import crowded_chance
 from geswarm.rules.arguments import Number, Whole
 from geswarm.sim.bodies import E_PUCK
 from geswarm.sim.kernels.single import ONE, ZERO, F, I, fma, fraction
 from geswarm.sim.terms.component import Bits, Integer, Real
+from geswarm.sim.terms.crowd import crowd_percepts
 from geswarm.sim.terms.declare import (
     behaviour,
     cell_measure,
@@ -58,24 +58,7 @@ def messages(heard: Integer) -> Integer:
 HEARD = percept("HEARD", messages, holds="hearing {comparison} {value} robots")
 
 
-_CROWD = (Whole("xi", 1, 10, "robots"), Number("eta", 0.0, 20.0, 0.5))
-
-CROWDED = percept(
-    "CROWDED",
-    messages,
-    *_CROWD,
-    chance=lambda heard, xi, eta: crowded_chance(xi, eta, heard),
-    holds="hearing many robots (xi {xi}, eta {eta})",
-    fails="not hearing many robots (xi {xi}, eta {eta})",
-)
-ALONE = percept(
-    "ALONE",
-    messages,
-    *_CROWD,
-    chance=lambda heard, xi, eta: 1.0 - crowded_chance(xi, eta, heard),
-    holds="hearing few robots (xi {xi}, eta {eta})",
-    fails="not hearing few robots (xi {xi}, eta {eta})",
-)
+CROWDED, ALONE = crowd_percepts(messages, "hearing {} robots")
 
 
 @update(writes={"turn_until": I})

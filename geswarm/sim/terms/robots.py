@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from geswarm.automode.modules import crowded_chance
 from geswarm.rules.arguments import Number, Whole
 from geswarm.sim.bodies import FOOT_BOT
 from geswarm.sim.kernels.single import ONE, TWO, ZERO, F, I
 from geswarm.sim.terms.component import Integer, Real
+from geswarm.sim.terms.crowd import crowd_percepts
 from geswarm.sim.terms.declare import behaviour, count, percept, sensor, vector_sum
 
 BODY = FOOT_BOT
@@ -44,24 +44,7 @@ def heard(near: Integer) -> Integer:
     return near if near < I(20) else I(20)
 
 
-_CROWD = (Whole("xi", 1, 10, "robots"), Number("eta", 0.0, 20.0, 0.5))
-
-CROWDED = percept(
-    "CROWDED",
-    heard,
-    *_CROWD,
-    chance=lambda near, xi, eta: crowded_chance(xi, eta, near),
-    holds="with many robots near (xi {xi}, eta {eta})",
-    fails="not with many robots near (xi {xi}, eta {eta})",
-)
-ALONE = percept(
-    "ALONE",
-    heard,
-    *_CROWD,
-    chance=lambda near, xi, eta: 1.0 - crowded_chance(xi, eta, near),
-    holds="with few robots near (xi {xi}, eta {eta})",
-    fails="not with few robots near (xi {xi}, eta {eta})",
-)
+CROWDED, ALONE = crowd_percepts(heard, "with {} robots near")
 
 
 @count("in_the_way")
