@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+import numpy as np
+import numpy.typing as npt
 from scipy.optimize import root
 
 from geswarm.automode.machine import Transition
@@ -46,8 +48,9 @@ def _of_three(q: Sequence[float]) -> list[float]:
         for at in range(3):
             p[at] = min(1.0, q[at] / first(p, at))
 
-    def missed(p: Sequence[float]) -> list[float]:
-        return [p[at] * first(p, at) - q[at] for at in range(3)]
+    def missed(tried: npt.NDArray[np.float64], /) -> list[float]:
+        chances = tried.tolist()
+        return [chances[at] * first(chances, at) - q[at] for at in range(3)]
 
     found = root(missed, p, tol=1e-15)
     return [float(each) for each in found.x]

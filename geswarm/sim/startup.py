@@ -35,6 +35,8 @@ COMPILING = "Compiling the simulator for this machine, once: about {seconds} s â
 COMPILING_EACH_TIME = "Compiling the simulator for this machine, each time: about {seconds} s â€¦"
 SECONDS, SECONDS_INTERACTIVE = 7, 12
 """With two cores; on one it takes almost twice as long."""
+SECONDS_INERT, SECONDS_INERT_INTERACTIVE = 30, 60
+"""The same for bodies that move and sense as the e-puck does."""
 NOT_KEPT = (
     "The compiled simulator cannot be kept ({trouble}), so it compiles each time; "
     "NUMBA_CACHE_DIR can name another folder for it"
@@ -71,7 +73,10 @@ def warm_up(
     compiled_before = is_compiled(scenario, interactive=interactive)
     if not compiled_before:
         message = COMPILING if cache.trouble() is None else COMPILING_EACH_TIME
-        announce(message.format(seconds=SECONDS_INTERACTIVE if interactive else SECONDS))
+        seconds = (SECONDS, SECONDS_INTERACTIVE)
+        if scenario.robot.is_inert:
+            seconds = (SECONDS_INERT, SECONDS_INERT_INTERACTIVE)
+        announce(message.format(seconds=seconds[interactive]))
     small = scenario.with_changes(duration=CONTROL_STEP)
     helper = None if compiled_before else _compile_beside(small, interactive)
     if interactive:
