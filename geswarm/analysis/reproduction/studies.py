@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,7 @@ def _larger_swarms(kind: str, best: str) -> list[Case]:
     ]
 
 
+@cache
 def with_zone_miss(name: str, zone_miss: float) -> Scenario:
     """A scenario with another `zone_miss`, and a name that says so."""
     scenario = load_scenario(name)

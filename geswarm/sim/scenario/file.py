@@ -6,6 +6,7 @@ import difflib
 import itertools
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -37,14 +38,15 @@ _TOP = ("extends", "arena", *(key for key in PARAMETERS if key not in ARENA_KEYS
 _NEEDED = ("robots", "duration", "preconditions", "behaviours", "measures", "objective")
 
 
-def built_in_names() -> list[str]:
+@cache
+def built_in_names() -> tuple[str, ...]:
     """Names of the scenarios that come with GESwarm, `paper` first, numbers in order."""
 
     def order(name: str) -> tuple[bool, list[tuple[str, int]]]:
         parts = re.findall(r"([^0-9]+)([0-9]*)", name)
         return name != _ROOT, [(text, int(digits or 0)) for text, digits in parts]
 
-    return sorted((path.stem for path in _FOLDER.glob("*.yaml")), key=order)
+    return tuple(sorted((path.stem for path in _FOLDER.glob("*.yaml")), key=order))
 
 
 def about(name: str) -> str:

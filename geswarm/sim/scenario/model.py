@@ -195,7 +195,7 @@ class Scenario:
         """Whether all but its numbers is what a file inherits that says nothing."""
         numbers = {key: getattr(self, key) for key in PARAMETERS}
         try:
-            return _paper().with_changes(name=self.name, **numbers) == self
+            return load_scenario("paper").with_changes(name=self.name, **numbers) == self
         except ScenarioError:
             return False
 
@@ -221,14 +221,9 @@ def _defaults() -> dict[str, Any]:
     return {field.name: field.default for field in fields if field.default is not MISSING}
 
 
-@cache
-def _paper() -> Scenario:
-    return load_scenario("paper")
-
-
 def scenario_names() -> list[str]:
     """Names of the scenarios that come with GESwarm, `paper` first."""
-    return scenario_file.built_in_names()
+    return list(scenario_file.built_in_names())
 
 
 def scenario_about(name: str) -> str:
@@ -249,7 +244,18 @@ def load_scenario(name_or_path: str | Path) -> Scenario:
     Raises:
         ScenarioError: It does not exist or is wrong; lists everything, with file and line.
     """
-    name, values = scenario_file.read(str(name_or_path), _defaults(), _term_problems)
+    name = str(name_or_path)
+    return _built_in(name) if name in scenario_file.built_in_names() else _read(name)
+
+
+@cache
+def _built_in(name: str) -> Scenario:
+    """One that comes with GESwarm; commands ask for the same ones again and again."""
+    return _read(name)
+
+
+def _read(name_or_path: str) -> Scenario:
+    name, values = scenario_file.read(name_or_path, _defaults(), _term_problems)
     return Scenario(name=name, **values)
 
 
