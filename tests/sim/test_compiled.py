@@ -1,9 +1,14 @@
 import ast
 import sys
+import warnings
 from pathlib import Path
+
+import numpy as np
+import pytest
 
 from geswarm.sim import compiled
 from geswarm.sim.kernels import start
+from geswarm.sim.kernels.jit import called, inlined, kernel_in_memory
 
 FOLDER = Path(start.__file__).parent
 
@@ -27,3 +32,22 @@ def test_kernels_import_numba_numpy_and_the_standard_library_alone():
                 assert {name.name for name in node.names} <= allowed
             elif isinstance(node, ast.ImportFrom):
                 assert node.module in allowed or node.module.startswith("geswarm.sim.kernels.")
+
+
+@pytest.mark.parametrize("kind", [called, inlined], ids=["called", "inlined"])
+def test_records_that_begin_alike_are_told_apart_without_a_warning(kind):
+    @kind
+    def sum_of(robot):
+        return robot.x + robot.y
+
+    @kernel_in_memory
+    def run(robots):
+        return sum_of(robots[0])
+
+    few = np.ones(1, dtype=[("x", np.float32), ("y", np.float32)])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for more in range(3):
+            fields = [*few.dtype.descr, *((f"more{k}", np.float32) for k in range(more))]
+            robots = np.ones(1, dtype=fields)
+            assert run(robots) == 2.0

@@ -50,11 +50,17 @@ _WHOLE: Any = {"nogil": True, "pipeline_class": KernelCompiler, **_OPTIONS}
 
 
 def _general(dispatcher: Any) -> Any:
-    """Of a function that is called with constants too: compiled once, not for each of them."""
+    """Of a function that is called with constants too: compiled once, not for each of them.
+
+    A call is of the version for its types and no other. Numba would weigh all versions of the
+    process, and warn of records that begin as others do (NumbaExperimentalFeatureWarning).
+    """
     template = dispatcher.get_call_template
 
     def get_call_template(args: Any, kws: Any) -> Any:
-        return template(tuple(types.unliteral(each) for each in args), kws)
+        found, signature, args, kws = template(tuple(types.unliteral(each) for each in args), kws)
+        found.cases = [each for each in found.cases if each.args == tuple(args)]
+        return found, signature, args, kws
 
     dispatcher.get_call_template = get_call_template
     return dispatcher
