@@ -12,11 +12,12 @@ from scipy.ndimage import minimum_filter
 from geswarm.sim import Scenario
 from geswarm.sim.arena.geometry import corners, distances
 from geswarm.sim.arena.model import Arena, Patch
+from geswarm.sim.arena.triangles import common, pieces
 
 from .. import palette
 from ..palette import Colour
 from .lettering import text_width
-from .plane import common, flat, pieces
+from .plane import flat
 from .shapes import Mesh
 
 LETTER_HEIGHT = 0.42

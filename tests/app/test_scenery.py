@@ -14,13 +14,14 @@ from geswarm.app.scene.ground import as_shown, floors, signs
 from geswarm.app.scene.lamps import lamp_of
 from geswarm.app.scene.lettering import painted, text_width
 from geswarm.app.scene.overlays import outside
-from geswarm.app.scene.plane import common, flat, pieces, rim, triangles, wall
+from geswarm.app.scene.plane import flat, rim, wall
 from geswarm.app.scene.scenery import outer_points
 from geswarm.app.state.trace import PathTrace
 from geswarm.rules import RuleSet
 from geswarm.sim import World, load_scenario
 from geswarm.sim.arena.geometry import corners, distances, signed_area
 from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Light, Patch, Polygon, regular
+from geswarm.sim.arena.triangles import common, pieces, triangles
 
 CONCAVE = Polygon(
     (

@@ -7,6 +7,7 @@ of many corners where they are compared with others.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -145,12 +146,26 @@ def distances(shape: Plain, points: Points) -> npt.NDArray[np.float64]:
 def from_border(border: Points, points: Points) -> npt.NDArray[np.float64]:
     """How far points are from a closed line (m)."""
     least = np.full(len(points), np.inf)
+    for away in _from_sides(border, points):
+        least = np.minimum(least, np.hypot(*away.T))
+    return least
+
+
+def nearest_on(border: Points, points: Points) -> Points:
+    """The places on a closed line that are nearest to points, shape (points, 2)."""
+    away = np.stack(list(_from_sides(border, points)))
+    nearest = np.hypot(away[..., 0], away[..., 1]).argmin(axis=0)
+    found: Points = points - away[nearest, np.arange(len(points))]
+    return found
+
+
+def _from_sides(border: Points, points: Points) -> Iterator[Points]:
+    """The ways to points from the nearest place of each side of a closed line."""
     for start, end in zip(border, np.roll(border, -1, axis=0), strict=True):
         side, offsets = end - start, points - start
         length = max(float(side @ side), np.finfo(np.float64).tiny)
         part = np.clip(offsets @ side / length, 0.0, 1.0)
-        least = np.minimum(least, np.hypot(*(offsets - part[:, np.newaxis] * side).T))
-    return least
+        yield offsets - part[:, np.newaxis] * side
 
 
 def between(one: Points, other: Points) -> float:

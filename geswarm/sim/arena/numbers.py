@@ -9,6 +9,7 @@ from typing import NamedTuple
 from geswarm.sim.arena.geometry import Extent, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Polygon
 from geswarm.sim.arena.source_place import box_numbers, in_single, where_objects_lie
+from geswarm.sim.arena.triangles import Triangles
 
 _SLACK = 1e-3
 """By which share of its radius a body may be pressed into a wall."""
@@ -108,7 +109,30 @@ def object_numbers(arena: Arena, margin: float) -> dict[str, float]:
     if place is None:
         return {}
     numbers = {f"objects_{side}": at for side, at in place.extent._asdict().items()}
+    if isinstance(place.shape, Triangles):  # whose number the form does not know
+        return numbers
     if isinstance(place.shape, Extent):
         box = box_numbers(in_single(arena, margin))
         return numbers | {f"object_{name}": value for name, value in box.items()}
     return numbers | _named("object", place.shape)
+
+
+def triangle_numbers(arena: Arena, margin: float) -> list[float]:
+    """Where objects lie in triangles, as `kernels.geometry.place_in_triangles` takes it.
+
+    Args:
+        arena: The arena.
+        margin: Least distance of objects from walls and obstacles (m).
+
+    Returns:
+        The numbers of one triangle after the other, then how many triangles; none if objects lie
+        in something else.
+
+    Raises:
+        GroundError: Objects cannot be placed in the area `source`.
+    """
+    place = where_objects_lie(arena, margin)
+    if place is None or not isinstance(place.shape, Triangles):
+        return []
+    rows = place.shape.rows
+    return [*rows.ravel().tolist(), float(len(rows))]

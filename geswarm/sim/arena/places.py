@@ -11,6 +11,7 @@ from geswarm.sim.arena.geometry import Extent, distances, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Point
 from geswarm.sim.arena.source_place import where_objects_lie
 from geswarm.sim.arena.start_places import free_of, places_of
+from geswarm.sim.arena.triangles import Triangles
 from geswarm.sim.scenario.checks import objects_from_walls
 from geswarm.sim.scenario.model import Scenario
 
@@ -42,6 +43,8 @@ def nearest_in_source(scenario: Scenario, wanted: Point) -> Point:
     place = where_objects_lie(scenario.arena, margin)
     assert place is not None, "there are no objects without a source"
     shape, (x, y) = place.shape, wanted
+    if isinstance(shape, Triangles):
+        return shape.nearest(wanted)
     if isinstance(shape, Extent):
         return min(max(x, shape.west), shape.east), min(max(y, shape.south), shape.north)
     if isinstance(shape, Disc):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,8 @@ from geswarm.sim.arena.geometry import (
     extent_of,
     is_within,
 )
-from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Polygon
+from geswarm.sim.arena.model import Arena, Box, Disc, HalfPlane, Outline, Plain, Polygon
+from geswarm.sim.arena.triangles import Triangles, common, pieces
 from geswarm.sim.terms.ground import GroundError
 
 _TRIFLE = 1e-9
@@ -26,50 +28,92 @@ _TRIFLE = 1e-9
 
 @dataclass(frozen=True)
 class SourcePlace:
-    """Where objects lie: a box along the axes, a disc, or a turned box."""
+    """Where objects lie: a box along the axes, a disc, a turned box, or triangles."""
 
-    shape: Extent | Disc | Box
+    shape: Extent | Disc | Box | Triangles
 
     @property
     def extent(self) -> Extent:
         """The smallest box along the axes around it."""
-        return self.shape if isinstance(self.shape, Extent) else extent_of(self.shape)
+        if isinstance(self.shape, Extent):
+            return self.shape
+        return self.shape.extent if isinstance(self.shape, Triangles) else extent_of(self.shape)
 
 
+@lru_cache(maxsize=64)
 def where_objects_lie(arena: Arena, margin: float) -> SourcePlace | None:
     """The part of the area `source` in which objects lie; None if there is no such area.
 
-    Of a box or a half-plane in a box outline, and of a disc in the middle of a disc outline, it is
-    what is far enough from the walls; any other source must be it as a whole.
+    In a box outline it is what of bands, boxes and polygons is far enough from the walls (of a
+    single turned box only all of it), and so of a disc in the middle of a disc outline. Any other
+    source must be far enough as a whole, and all that is left must be far enough from obstacles.
 
     Args:
         arena: The arena.
         margin: Least distance of objects from walls and obstacles (m).
 
     Raises:
-        GroundError: It is something else than one disc, box or, in a box, band; it reaches too far;
-            or nothing is left of it.
+        GroundError: Bands are not in a box, or one of several patches is a disc or overlaps
+            another one; it reaches too far; or nothing is left of it.
     """
     shapes = arena.area("source")
     if not shapes:
         return None
+    if not isinstance(arena.outline, Box) and any(isinstance(each, HalfPlane) for each in shapes):
+        raise GroundError("source: a band is only for a rectangular arena: expected other shapes")
     shape = shapes[0]
-    if len(shapes) > 1 or not isinstance(shape, Disc | Box | HalfPlane):
-        found = "several patches" if len(shapes) > 1 else "a polygon"
-        raise GroundError(f"source: expected one band, box or disc for objects to lie in: {found}")
-    if isinstance(arena.outline, Box) and not isinstance(shape, Disc) and not _is_turned(shape):
+    if len(shapes) > 1 or isinstance(shape, Polygon):
+        place = SourcePlace(_cut(arena, shapes, margin))
+    elif isinstance(arena.outline, Box) and not isinstance(shape, Disc) and not _is_turned(shape):
         extent = _in_box(arena, shape, margin, float)
         if extent.west >= extent.east or extent.south >= extent.north:
-            raise GroundError(
-                f"source: a margin of {margin:g} m from the walls leaves no room for objects"
-            )
+            raise _no_room(margin)
         place = SourcePlace(extent)
-    elif isinstance(shape, HalfPlane):
-        raise GroundError("source: a band is only for a rectangular arena: expected a box or disc")
     else:
+        assert not isinstance(shape, HalfPlane)
         place = SourcePlace(_far_from_outline(arena, shape, margin))
     _require_far_from_obstacles(arena, place, margin)
     return place
+
+
+def _no_room(margin: float) -> GroundError:
+    return GroundError(
+        f"source: a margin of {margin:g} m from the walls leaves no room for objects"
+    )
+
+
+def _cut(arena: Arena, shapes: tuple[Plain, ...], margin: float) -> Triangles:
+    """What of patches with straight sides is far enough from the outline."""
+    patches: list[Triangles] = []
+    for number, shape in enumerate(shapes, 1):
+        if isinstance(shape, Disc):
+            raise GroundError(
+                "source: expected boxes, bands or polygons where it has several patches, "
+                f"got a disc as number {number}"
+            )
+        patch = Triangles.of(_reached(arena.outline, shape, margin))
+        for other, before in enumerate(patches, 1):
+            if patch.share_area_with(before):
+                raise GroundError(
+                    "source: expected patches that do not overlap for objects to lie in, "
+                    f"got numbers {other} and {number}"
+                )
+        patches.append(patch)
+    found = Triangles(np.concatenate([patch.corners for patch in patches]))
+    if not len(found.corners):
+        raise _no_room(margin)
+    return found
+
+
+def _reached(outline: Outline, shape: Box | HalfPlane | Polygon, margin: float) -> list[Points]:
+    """Convex pieces of what is far enough from a box; of any other outline all of it must be."""
+    if not isinstance(outline, Box):
+        assert not isinstance(shape, HalfPlane)
+        _require_far_from_outline(outline, shape, margin)
+        return pieces(shape)
+    width, length = outline.width - 2.0 * margin, outline.length - 2.0 * margin
+    inner = [corners(Box(0.0, 0.0, width, length))] if min(width, length) > 0.0 else []
+    return common(shape, inner)
 
 
 def in_single(arena: Arena, margin: float) -> Extent:
@@ -114,10 +158,14 @@ def _far_from_outline(arena: Arena, shape: Disc | Box, margin: float) -> Extent 
     if isinstance(outline, Disc) and isinstance(shape, Disc) and (shape.x, shape.y) == (0.0, 0.0):
         radius = min(shape.radius, outline.radius - margin)
         if radius <= 0.0:
-            raise GroundError(
-                f"source: a margin of {margin:g} m from the wall leaves no room for objects"
-            )
+            raise _no_room(margin)
         return Disc(0.0, 0.0, radius)
+    _require_far_from_outline(outline, shape, margin)
+    straight = isinstance(shape, Box) and not _is_turned(shape)
+    return extent_of(shape) if straight else shape
+
+
+def _require_far_from_outline(outline: Outline, shape: Disc | Box | Polygon, margin: float) -> None:
     points, own = _rounded(shape)
     if isinstance(outline, Disc):
         gap = outline.radius - float(np.hypot(*points.T).max())
@@ -128,8 +176,6 @@ def _far_from_outline(arena: Arena, shape: Disc | Box, margin: float) -> Extent 
         raise GroundError(
             f"source: expected all of it at least {margin:g} m from the walls, where robots reach"
         )
-    straight = isinstance(shape, Box) and not _is_turned(shape)
-    return extent_of(shape) if straight else shape
 
 
 def _require_far_from_obstacles(arena: Arena, place: SourcePlace, margin: float) -> None:
@@ -142,17 +188,28 @@ def _require_far_from_obstacles(arena: Arena, place: SourcePlace, margin: float)
 
 
 def _gaps_to_obstacles(arena: Arena, place: SourcePlace) -> Iterator[float]:
+    shape = place.shape
+    parts = (
+        [(each, 0.0) for each in shape.corners]
+        if isinstance(shape, Triangles)
+        else [_rounded(shape)]
+    )
     for obstacle in arena.obstacles:
-        (own, around), (that, reach) = _rounded(place.shape), _rounded(obstacle)
-        apart = not is_within(own, that[:1])[0] and not is_within(that, own[:1])[0]
-        yield between(own, that) - around - reach if apart else -math.inf
+        that, reach = _rounded(obstacle)
+        yield min(_gap(own, that) - around - reach for own, around in parts)
 
 
-def _rounded(shape: Extent | Disc | Box) -> tuple[Points, float]:
+def _gap(one: Points, other: Points) -> float:
+    """How far apart two polygons or points are (m); less than any number if one holds the other."""
+    apart = not is_within(one, other[:1])[0] and not is_within(other, one[:1])[0]
+    return between(one, other) if apart else -math.inf
+
+
+def _rounded(shape: Extent | Disc | Box | Polygon) -> tuple[Points, float]:
     """A shape as a point or polygon and how far it reaches around that."""
     if isinstance(shape, Disc):
         return np.array([(shape.x, shape.y)]), shape.radius
-    if isinstance(shape, Box):
+    if isinstance(shape, Box | Polygon):
         return corners(shape), 0.0
     west, south, east, north = shape
     return np.array([(west, south), (east, south), (east, north), (west, north)]), 0.0

@@ -12,9 +12,10 @@ import numpy.typing as npt
 from geswarm.sim.arena.geometry import Extent, around_origin, corners, extent_of, turn_of
 from geswarm.sim.arena.model import Arena, Box, Disc, Polygon
 from geswarm.sim.arena.source_place import box_numbers, where_objects_lie
+from geswarm.sim.arena.triangles import Triangles
 from geswarm.sim.compiled import look_around
 from geswarm.sim.kernels.free import BOX, CLOSED, DISC, ROUND, START_DISC, START_SIDE, WALL
-from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TURNED, NO_PLACE, Places
+from geswarm.sim.kernels.state import IN_BOX, IN_DISC, IN_TRIANGLES, IN_TURNED, NO_PLACE, Places
 from geswarm.sim.terms.ground import GroundError
 
 _MOST_SAMPLES = 1_000_000
@@ -128,6 +129,8 @@ def _objects(arena: Arena, margin: float | None) -> tuple[int, Array]:
     if place is None:
         return NO_PLACE, np.zeros(6)
     shape = place.shape
+    if isinstance(shape, Triangles):
+        return IN_TRIANGLES, shape.rows
     if isinstance(shape, Disc):
         return IN_DISC, np.array([shape.x, shape.y, shape.radius, 0.0, 0.0, 0.0])
     if isinstance(shape, Box):

@@ -363,7 +363,8 @@ def fresh_place(source: Source, update: Update) -> None:
     kind = source.parts.ground.source
     if not set(FRESH) & set(update.needs):
         return
-    numbers = _numbers(source, "object", _PLACES[kind])
+    in_triangles = kind == "triangles"  # as many as there may be, see `triangle_numbers`
+    numbers = "numbers" if in_triangles else _numbers(source, "object", _PLACES[kind])
     place = ", ".join(map(variable, FRESH))
     bits = "bits_object_x, bits_object_y"
     source(f"{place} = geometry.place_in_{kind}({bits}, {numbers})")

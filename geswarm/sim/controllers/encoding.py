@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geswarm.rules.model import CONTROL_STEP
-from geswarm.sim.arena.numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.numbers import ground_numbers, object_numbers, triangle_numbers
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.kernels.pairs import Grid
 from geswarm.sim.scenario.checks import objects_from_walls
@@ -28,7 +28,6 @@ def scenario_numbers(scenario: Scenario) -> dict[str, float]:
     """Everything that components may name; lengths in metres, times in seconds."""
     sight, skin = _sight(scenario)
     body = scenario.robot
-    margin = objects_from_walls(scenario.object_margin, scenario.grip_reach, body.radius)
     own = {name: float(getattr(scenario, name)) for name in _OWN}
     return {
         **dict(body.numbers),
@@ -43,7 +42,7 @@ def scenario_numbers(scenario: Scenario) -> dict[str, float]:
         "wheel_base": body.wheel_base,
         "control_step": CONTROL_STEP,
         **ground_numbers(scenario.arena, body.radius),
-        **object_numbers(scenario.arena, margin),
+        **object_numbers(scenario.arena, _margin(scenario)),
         "sight": sight,
         "skin": skin,
     }
@@ -55,6 +54,12 @@ _OWN = (
 )
 
 
+def _margin(scenario: Scenario) -> float:
+    """Least distance of objects from walls and obstacles (m)."""
+    radius = scenario.robot.radius
+    return objects_from_walls(scenario.object_margin, scenario.grip_reach, radius)
+
+
 def _avoidance_range(scenario: Scenario) -> float:
     given = scenario.avoidance_range
     return scenario.rab_range if given is None else given
@@ -63,7 +68,7 @@ def _avoidance_range(scenario: Scenario) -> float:
 def numbers_by_name(
     scenario: Scenario, names: Iterable[str], parts: Parts
 ) -> npt.NDArray[np.float32]:
-    """The numbers of these names, in single precision.
+    """The numbers of these names, in single precision; then `triangle_numbers` if there are.
 
     Raises:
         PartsError: A component names something that there is not.
@@ -78,7 +83,8 @@ def numbers_by_name(
                 f"{who.place}: {who.name} names {name}, which is neither a field of a robot, nor a "
                 "register, nor a sum over the other robots, nor a number of the scenario"
             )
-    return np.array([known[name] for name in names], dtype=np.float32)
+    triangles = triangle_numbers(scenario.arena, _margin(scenario))
+    return np.array([*(known[name] for name in names), *triangles], dtype=np.float32)
 
 
 def fails(scenario: Scenario, parts: Parts) -> list[float]:

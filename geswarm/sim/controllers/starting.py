@@ -13,7 +13,7 @@ from geswarm.sim.arena.start_places import places_of, require_room
 from geswarm.sim.assembly.records import Records
 from geswarm.sim.compiled import begin
 from geswarm.sim.controllers.encoding import cells_of
-from geswarm.sim.kernels.state import IN_BOX, IN_TURNED, ROBOT, Beginning, Places
+from geswarm.sim.kernels.state import IN_BOX, IN_TRIANGLES, IN_TURNED, ROBOT, Beginning, Places
 from geswarm.sim.scenario.checks import objects_from_walls
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms.parts import Parts
@@ -150,6 +150,12 @@ def _of_objects(places: Places, u: Array, v: Array, turned_x: Array, turned_y: A
         across, along = place[2] * (2.0 * u - 1.0), place[3] * (2.0 * v - 1.0)
         lying[..., 0] = place[0] + across * cos - along * sin
         lying[..., 1] = place[1] + along * cos + across * sin
+    elif places.object_form == IN_TRIANGLES:  # shares of the area, a corner, two sides from it
+        rows = place[np.searchsorted(place[:, 0], u, side="right") - 1]
+        a = np.minimum((u - rows[..., 0]) / rows[..., 1], 1.0)
+        beyond = a + v > 1.0  # in the other half of a parallelogram
+        a, b = np.where(beyond, 1.0 - a, a), np.where(beyond, 1.0 - v, v)
+        lying[:] = rows[..., 2:4] + a[..., None] * rows[..., 4:6] + b[..., None] * rows[..., 6:]
     else:  # x, y, radius
         d = place[2] * np.sqrt(u)
         lying[..., 0], lying[..., 1] = place[0] + d * turned_x, place[1] + d * turned_y

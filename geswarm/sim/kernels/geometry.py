@@ -256,3 +256,27 @@ def place_in_disc(u: Any, v: Any, at_x: Any, at_y: Any, radius: Any) -> Any:
     cos, sin = heading(v)
     d = radius * F(math.sqrt(fraction(u)))
     return fma(d, cos, at_x), fma(d, sin, at_y)
+
+
+@inlined
+def place_in_triangles(u: Any, v: Any, numbers: Any) -> Any:
+    """Uniformly random place in triangles.
+
+    Args:
+        u: 32 random bits, which choose a triangle and how far the place is along one side of it.
+        v: 32 random bits.
+        numbers: float32, the last ones of which are eight for each triangle, then how many there
+            are. The eight are the area of all triangles before it and its own, as shares of the
+            whole; a corner; the ways from there to the second and to the third one (x, y each, m).
+    """
+    u, b = fraction(u), fraction(v)
+    first = len(numbers) - 1 - 8 * int(numbers[-1])
+    at = len(numbers) - 9
+    while at > first and numbers[at] > u:
+        at -= 8
+    a = (u - numbers[at]) / numbers[at + 1]
+    a = a if a < ONE else ONE  # shares are rounded
+    beyond = a + b > ONE  # in the other half of a parallelogram
+    a, b = ONE - a if beyond else a, ONE - b if beyond else b
+    x = fma(b, numbers[at + 6], fma(a, numbers[at + 4], numbers[at + 2]))
+    return x, fma(b, numbers[at + 7], fma(a, numbers[at + 5], numbers[at + 3]))

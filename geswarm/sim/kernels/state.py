@@ -22,9 +22,9 @@ class Places(NamedTuple):
             else 0.
         shapes: What else limits where they start, shape (shapes, 7), see `free.is_free`;
             None for nothing.
-        object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED or IN_DISC.
+        object_form: Where objects lie: NO_PLACE, IN_BOX, IN_TURNED, IN_DISC or IN_TRIANGLES.
         objects: Its numbers: middle x, half width, south, depth; or x, y, half width, half length,
-            cos, sin; or x, y, radius.
+            cos, sin; or x, y, radius; or shape (triangles, 8), see `geometry.place_in_triangles`.
     """
 
     half_width: float
@@ -40,7 +40,7 @@ class Places(NamedTuple):
     objects: Any
 
 
-NO_PLACE, IN_BOX, IN_TURNED, IN_DISC = range(4)
+NO_PLACE, IN_BOX, IN_TURNED, IN_DISC, IN_TRIANGLES = range(5)
 
 
 class Beginning(NamedTuple):

@@ -66,7 +66,8 @@ class Ground:
         obstacles: Their forms.
         patches: Their forms; later ones lie on top.
         lights: How many.
-        source: The form of where objects lie ("box", "disc" or "turned"); empty if they do not.
+        source: The form of where objects lie ("box", "disc", "turned" or "triangles"); empty if
+            they do not.
     """
 
     outline: str = "box"
@@ -150,6 +151,8 @@ def _source_form(shapes: tuple[Shape, ...]) -> str:
     if not shapes:
         return ""
     shape = shapes[0]
+    if len(shapes) > 1 or isinstance(shape, Polygon):
+        return "triangles"
     if isinstance(shape, HalfPlane):
         return "box"
     assert isinstance(shape, _Resolved)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from geswarm.sim import footbot, load_scenario
 from geswarm.sim.arena.model import Arena, Band, Box, Disc, Light, Patch, Polygon, regular
-from geswarm.sim.arena.numbers import ground_numbers, object_numbers
+from geswarm.sim.arena.numbers import ground_numbers, object_numbers, triangle_numbers
 from geswarm.sim.arena.start_places import places_of, spots_of
 from geswarm.sim.assembly.kernel import assemble
 from geswarm.sim.assembly.records import GROUP, OBJECT, robot_type
@@ -119,7 +119,8 @@ class Run:
             **ground_numbers(arena, RADIUS),
             **object_numbers(arena, MARGIN),
         }
-        self.numbers = np.array([known[name] for name in self.kernel.numbers], dtype=np.float32)
+        named = [known[name] for name in self.kernel.numbers]
+        self.numbers = np.array([*named, *triangle_numbers(arena, MARGIN)], dtype=np.float32)
         self.began, self.items = started(
             arena, self.robots, self.number_of_objects, self.seed, 1 if self.layout.swarm else 64
         )
@@ -269,9 +270,12 @@ def angles(draw):
 
 @st.composite
 def stars(draw):
-    """A star: every other corner stands out into the arena; no light."""
+    """A star: every other corner stands out into the arena; no light.
+
+    The source is an arrowhead and a box beside it.
+    """
     outer, inner = draw(st.floats(1.6, 3.0)), draw(st.floats(0.7, 1.2))
-    turn = draw(st.floats(0, 72))
+    turn, notch = draw(st.floats(0, 72)), draw(st.floats(-0.25, 0.25))
     points = []
     for k in range(10):
         radius, angle = (inner if k % 2 else outer), math.radians(turn + 36 * k)
@@ -279,7 +283,8 @@ def stars(draw):
     return Arena(
         Polygon(tuple(points)),
         patches=(
-            Patch(Disc(draw(st.floats(-0.1, 0.1)), 0, 0.3), "black", "source"),
+            Patch(Polygon(((0, 0.3), (-0.3, -0.3), (0, notch), (0.3, -0.3))), "black", "source"),
+            Patch(Box(0, -0.35, 0.2, 0.1, draw(few)), "black", "source"),
             Patch(Disc(draw(few), draw(few), 1.0), "black", "nest"),
         ),
     )
