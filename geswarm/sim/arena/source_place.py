@@ -179,7 +179,7 @@ def _require_far_from_outline(outline: Outline, shape: Disc | Box | Polygon, mar
 
 
 def _require_far_from_obstacles(arena: Arena, place: SourcePlace, margin: float) -> None:
-    for number, gap in enumerate(_gaps_to_obstacles(arena, place), 1):
+    for number, gap in enumerate(_gaps_to_obstacles(arena, place, margin), 1):
         if gap < margin - _TRIFLE:
             raise GroundError(
                 f"source: expected it at least {margin:g} m from obstacles, where robots reach, "
@@ -187,16 +187,22 @@ def _require_far_from_obstacles(arena: Arena, place: SourcePlace, margin: float)
             )
 
 
-def _gaps_to_obstacles(arena: Arena, place: SourcePlace) -> Iterator[float]:
+def _gaps_to_obstacles(arena: Arena, place: SourcePlace, margin: float) -> Iterator[float]:
+    """How far each obstacle is away (m); infinity where it is beyond the margin at first sight."""
     shape = place.shape
     parts = (
         [(each, 0.0) for each in shape.corners]
         if isinstance(shape, Triangles)
         else [_rounded(shape)]
     )
+    low = np.array([own.min(axis=0) - around for own, around in parts])
+    high = np.array([own.max(axis=0) + around for own, around in parts])
     for obstacle in arena.obstacles:
         that, reach = _rounded(obstacle)
-        yield min(_gap(own, that) - around - reach for own, around in parts)
+        apart = np.maximum(low - that.max(axis=0), that.min(axis=0) - high).max(axis=1) - reach
+        near = [parts[k] for k in np.flatnonzero(apart < margin)]
+        gaps = (_gap(own, that) - around - reach for own, around in near)
+        yield min(gaps, default=math.inf)
 
 
 def _gap(one: Points, other: Points) -> float:
