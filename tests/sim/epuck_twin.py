@@ -32,7 +32,7 @@ class Twin:
     """Robots within walls, each wall (distance, angle of what points at it) from the origin."""
 
     def __init__(self, walls, robots, behaviour, argument=0, rab_range=0.7):
-        self.walls, self.robots = walls, robots
+        self.walls, self.robots, self.pushes = walls, robots, {}
         self.behaviour, self.argument, self.rab_range = behaviour, argument, rab_range
 
     def step(self):
@@ -47,36 +47,24 @@ class Twin:
             speed = (robot.left + robot.right) / 2
             targets[robot] = speed * math.cos(robot.heading), speed * math.sin(robot.heading)
         spins = {robot: (robot.right - robot.left) / AXLE for robot in robots}
-        pushes = {}
         for _ in range(10):
             for robot in robots:
                 robot.x += robot.go_x * 0.01
                 robot.y += robot.go_y * 0.01
-            close = {}
+                robot.drive_x = robot.drive_y = 0.0
+            touching = {}
             for at, one in enumerate(robots):
                 for other in robots[:at]:
                     dx, dy = one.x - other.x, one.y - other.y
-                    gap = math.hypot(dx, dy) - 2 * RADIUS
-                    if gap < 0.004:
-                        d = gap + 2 * RADIUS
-                        close[one, other] = dx / d, dy / d, gap
-                        push(one, other, dx / d, dy / d, pushes.get((one, other), 0.0))
+                    d = math.hypot(dx, dy)
+                    if d < 2 * RADIUS:
+                        touching[one, other] = dx / d, dy / d
+            self.pushes = {pair: self.pushes.get(pair, (0.0, 0.0)) for pair in touching}
+            for pair, normal in touching.items():
+                push(*pair, normal, *self.pushes[pair])
             for robot in robots:
-                dx, dy = (
-                    to - go for to, go in zip(targets[robot], (robot.go_x, robot.go_y), strict=True)
-                )
-                share = min(1.0, 0.0375 / max(math.hypot(dx, dy), 1e-12))
-                robot.go_x, robot.go_y = robot.go_x + share * dx, robot.go_y + share * dy
-            before, pushes = pushes, {}
-            for (one, other), (x, y, gap) in close.items():
-                go_x, go_y = one.go_x - other.go_x, one.go_y - other.go_y
-                was = before.get((one, other), 0.0)
-                now = max(0.0, was - (go_x * x + go_y * y + 100 * gap) / 2)
-                pushes[one, other] = now
-                sliding = go_y * x - go_x * y - RADIUS * (spins[one] + spins[other])
-                rub = min(max(-sliding / 2, -0.49 * now), 0.49 * now)
-                push(one, other, x, y, now - was)
-                push(one, other, -y, x, rub)
+                drive(robot, *targets[robot])
+            settle(touching, self.pushes, spins, targets, self.stop_at_walls)
             for robot in robots:
                 self.stop_at_walls(robot)
         for robot in robots:
@@ -184,6 +172,38 @@ class Twin:
         return sum_x, sum_y
 
 
-def push(one, other, x, y, strength):
-    one.go_x, one.go_y = one.go_x + strength * x, one.go_y + strength * y
-    other.go_x, other.go_y = other.go_x - strength * x, other.go_y - strength * y
+def drive(robot, to_x, to_y):
+    """The motors change the velocity by at most 0.0375 m/s in a sub-step."""
+    dx, dy = robot.drive_x + to_x - robot.go_x, robot.drive_y + to_y - robot.go_y
+    share = min(1.0, 0.0375 / max(math.hypot(dx, dy), 1e-12))
+    robot.go_x += share * dx - robot.drive_x
+    robot.go_y += share * dy - robot.drive_y
+    robot.drive_x, robot.drive_y = share * dx, share * dy
+
+
+def settle(touching, pushes, spins, targets, stop_at_walls):
+    """Pushes and motors are balanced, as Chipmunk does it: pair after pair, some times over."""
+    met = {robot for pair in touching for robot in pair}
+    for _ in range(10):
+        most = 0.0
+        for robot in met:
+            stop_at_walls(robot)
+        for (one, other), (x, y) in touching.items():
+            was, rubbed = pushes[one, other]
+            go_x, go_y = one.go_x - other.go_x, one.go_y - other.go_y
+            now = max(0.0, was - (go_x * x + go_y * y) / 2)
+            sliding = go_y * x - go_x * y - RADIUS * (spins[one] + spins[other])
+            rub = min(max(rubbed - sliding / 2, -0.49 * now), 0.49 * now)
+            push(one, other, (x, y), now - was, rub - rubbed)
+            pushes[one, other] = now, rub
+            most = max(most, abs(now - was) + abs(rub - rubbed))
+        if most <= 0.005:
+            return
+        for robot in met:
+            drive(robot, *targets[robot])
+
+
+def push(one, other, normal, apart, along):
+    x, y = apart * normal[0] - along * normal[1], apart * normal[1] + along * normal[0]
+    one.go_x, one.go_y = one.go_x + x, one.go_y + y
+    other.go_x, other.go_y = other.go_x - x, other.go_y - y

@@ -18,6 +18,8 @@ from tests.sim.epuck_twin import Robot, Twin
 
 TRACES = json.loads(Path(__file__).with_name("epuck_traces.json").read_text())
 """Measured of argos3-epuck (seeds of its own): every tenth place and heading, from the first on."""
+CONTACTS = json.loads(Path(__file__).with_name("epuck_contacts.json").read_text())
+"""Measured of argos3-epuck: the gap between two robots in each step from when they touch on."""
 REACH = [1.226 if side % 3 == 0 else 1.22568 for side in range(12)]
 WALLS = [(reach, side * math.pi / 6) for side, reach in enumerate(REACH)]
 NAMES = {"exploration": "EXPLORATION", "attraction": "ATTRACTION", "repulsion": "REPULSION"}
@@ -119,12 +121,18 @@ def test_kernel_does_what_the_twin_does(behaviour, argument, steps):
 
 @pytest.mark.parametrize(
     ("pushing", "standing", "speed", "exact"),
-    [(1, 1, 0.06, 0.002), (2, 1, 0.12, 0.005), (1, 2, 0.0, 0.005), (3, 1, 0.12, 0.005)],
+    [
+        (1, 1, 0.06, 0.002),
+        (2, 1, 0.12, 0.005),
+        (1, 2, 0.0, 0.005),
+        (3, 1, 0.12, 0.005),
+        (3, 2, 0.12, 0.005),
+    ],
 )
 def test_pushing_is_a_vote(pushing, standing, speed, exact):
     robots = pushing + standing
     poses = np.zeros((1, robots, 3))
-    poses[0, :, 0] = -0.3 + 0.07 * np.arange(robots) + 0.03 * (np.arange(robots) >= pushing)
+    poses[0, :, 0] = -0.3 + 0.07 * np.arange(robots) + 0.0309 * (np.arange(robots) >= pushing)
     group = group_of("STOP", 0, poses)
     for step in range(30):
         for wheel in ("left", "right"):
@@ -133,4 +141,15 @@ def test_pushing_is_a_vote(pushing, standing, speed, exact):
         group.run(step, 1)
     went = (places(group, 1) - before)[0, :, 0]
     assert went / 0.1 == pytest.approx(np.full(robots, speed), abs=exact)
-    assert np.diff(places(group, 1)[0, :, 0]).min() > 0.0698
+    # What the robots were in each other when they were first found to be, and no more.
+    assert np.diff(places(group, 1)[0, :, 0]).min() > 0.07 - 0.5 * 0.12 * 0.01 - 2e-5
+
+
+@pytest.mark.parametrize("case", CONTACTS, ids=lambda c: f"{c['controller']} {c['seed']}")
+def test_bodies_are_in_each_other_as_in_the_real_stack(case):
+    group = group_of(*words(case["controller"]), np.array([case["start"]]))
+    group.run(0, case["first"])
+    for number, gap in enumerate(case["gaps"]):
+        group.run(case["first"] + number, 1)
+        found = math.dist(*places(group, 1)[0]) - 0.07
+        assert found == pytest.approx(gap, abs=2.5e-4), number

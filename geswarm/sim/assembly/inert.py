@@ -106,8 +106,7 @@ def _look_for_others(source: Source) -> None:
         source("robot, other, some = robots[i], robots[j], I(0)")
         with source.lanes():
             source("dx, dy = robot.x[lane] - other.x[lane], robot.y[lane] - other.y[lane]")
-            source("moves = I(robot.moves[lane] | other.moves[lane])")
-            source("near = I(moves & I(fma(dx, dx, dy * dy) < near2))")
+            source("near = I(fma(dx, dx, dy * dy) < near2)")
             source("work.happens[lane] = near")
             source("some = I(some | near)")
         with source.inside("if some:"), source.lanes():
@@ -116,7 +115,8 @@ def _look_for_others(source: Source) -> None:
     with source.inside("for i in range(len(robots)):"):
         source("robot = robots[i]")
         with source.lanes():
-            source("work.touch[lane] = I(work.touch[lane] | robot.held[lane])")
+            source("moves = I(robot.held[lane] & robot.moves[lane])")
+            source("work.touch[lane] = I(work.touch[lane] | moves)")
 
 
 def _go_freely(source: Source) -> None:

@@ -86,7 +86,7 @@ def _robot_fields(parts: Parts, layout: Layout) -> Fields:
 def _of_inert_bodies(parts: Parts) -> Fields:
     if not parts.body.is_inert:
         return {}
-    rows = {name: (F, (number, LANES)) for name, number in senses.ROWS.items()}
+    rows = {name: (kind, (number, LANES)) for name, (kind, number) in senses.ROWS.items()}
     return {**senses.fields(parts.ground.lights), **rows}
 
 
@@ -126,7 +126,7 @@ def work_fields(parts: Parts, layout: Layout) -> Fields:
         fields |= {f"{sensor.name}_now": I for sensor in parts.sensors}
     if parts.body.is_inert:
         fields |= {"near": I, **dict.fromkeys(("dx", "dy", "per_d"), F), **_near_robots()}
-        pairs = {**dict.fromkeys(("one", "two"), I), **dict.fromkeys(_OF_NEAR_PAIRS, F)}
+        pairs = {**dict.fromkeys(("one", "two", "touching"), I), **dict.fromkeys(_OF_NEAR_PAIRS, F)}
         fields |= {name: (kind, (contact.MOST_PAIRS,)) for name, kind in pairs.items()}
     return fields
 
@@ -144,7 +144,8 @@ def mine_fields(parts: Parts, layout: Layout) -> Fields:
 def _near_robots() -> dict[str, type]:
     """What `contact.settle` knows of each robot of one lane that may touch something."""
     walls = [f"wall{number}_{name}" for number in range(2) for name in contact.OF_A_WALL]
-    return {"number": I, "walled": I, **dict.fromkeys((*contact.OF_THE_NEAR, *walls), F)}
+    whole = dict.fromkeys(("number", "walled", "met", "driven", "kept"), I)
+    return {**whole, **dict.fromkeys((*contact.OF_THE_NEAR, *walls), F)}
 
 
 OBJECT = np.dtype([("x", F, LANES), ("y", F, LANES)])

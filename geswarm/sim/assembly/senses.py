@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from geswarm.sim.assembly import ground
 from geswarm.sim.bodies import E_PUCK
+from geswarm.sim.kernels.contact import MOST_KEPT
 from geswarm.sim.kernels.epuck import RAYS, READINGS
 from geswarm.sim.kernels.single import F, I, U
 
@@ -33,8 +34,15 @@ _GROUND = 8
 _EYES = ((0.03, -0.009), (0.03, 0.0), (0.03, 0.009))
 """Where the ground sensors are: ahead, to the left (m)."""
 
-ROWS = {"memory_x": MEMORY, "memory_y": MEMORY, "rays": len(RAYS)}
-"""Fields of a robot that have several numbers: of the last steps, of each ray."""
+ROWS = {
+    "memory_x": (F, MEMORY),
+    "memory_y": (F, MEMORY),
+    "rays": (F, len(RAYS)),
+    "kept_with": (I, MOST_KEPT),
+    "kept_push": (F, MOST_KEPT),
+    "kept_rub": (F, MOST_KEPT),
+}
+"""Fields of a robot that have several numbers: of the last steps, of each ray, of each contact."""
 _WHOLE = ("heard", "ground")
 
 
@@ -46,7 +54,7 @@ def fields(lights: int) -> dict[str, type]:
         **dict.fromkeys(("left", "right", "go_x", "go_y", "to_x", "to_y", "spin", "turn"), F),
         **dict.fromkeys(walls, F),
         **dict.fromkeys(("now_x", "now_y", "beside_x", "beside_y"), F),
-        **dict.fromkeys(("held", "moves", "votes_black", "votes_white"), I),
+        **dict.fromkeys(("held", "moves", "kept", "votes_black", "votes_white"), I),
         **dict.fromkeys([f"dark{light}" for light in range(lights)], I),
         **dict.fromkeys(lamps, F),
         "dice": U,

@@ -1,8 +1,10 @@
 """How inert bodies push each other and walls: ten sub-steps for those that may touch in a step.
 
-A robot's motors change its velocity by at most `acceleration` in a sub-step, towards what its
-wheels are told. Bodies do not bounce, and each pair's push is remembered from one sub-step to the
-next, so that motors work against each other: k robots move m that stand only if k > m.
+As Chipmunk does it, which ARGoS uses: bodies push each other only once they are found a little in
+each other, where they may stay. They do not bounce. A robot's motors change its velocity by at most
+`acceleration` in a sub-step, towards what its wheels are told, and what all of them and all pushes
+come to is found pair after pair, from what it was in the sub-step before. So motors work against
+each other: k robots move m that stand only if k > m.
 """
 
 from __future__ import annotations
@@ -10,29 +12,48 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from geswarm.sim.kernels.jit import called, inlined
-from geswarm.sim.kernels.single import HALF, ONE, TWO, ZERO, F, U, within
+from geswarm.sim.kernels.single import HALF, ONE, TWO, ZERO, F, U, above_zero, within
 from geswarm.sim.kernels.state import LANES
 
 MOST_PAIRS = 8 * LANES
 """Pairs that are followed; no more than six bodies touch one, and few others come near."""
+MOST_KEPT = 6
+"""Pairs of a robot, with those of lower numbers, whose pushes are kept: more do not touch it."""
 _SUB_STEP, _SUB_STEPS = F(0.01), 10
-_PER_SUB_STEP = F(100.0)
-_CLOSE = F(0.004)  # what is further apart than this (m) does not touch in a sub-step
+_ITERATIONS = 10
+_SETTLED = F(5e-3)  # pushes are found when they change by less (m/s); they go on from there
+_BLOCK = 8  # robots that are moved at once, in a vector
 _SLOP = F(1e-4)  # bodies that are so near to a wall touch it
 
-OF_THE_NEAR = ("x", "y", "go_x", "go_y", "to_x", "to_y", "spin")
-"""Of each robot that may touch something: position, velocity, the one it is to reach, turn rate."""
+OF_THE_NEAR = ("x", "y", "go_x", "go_y", "to_x", "to_y", "spin", "drive_x", "drive_y")
+"""Of each robot that may touch something: position, velocity, the one it is to reach, speed of its
+surface by turning, change of velocity by its motors in this sub-step."""
 OF_A_WALL = ("x", "y", "gap")
 """Of its two nearest walls: what points away from it, gap between wall and body at the origin."""
-OF_NEAR_PAIRS = ("x", "y", "gap", "push")
-"""Of each pair: from the second to the first robot, gap (m), push of the last sub-step (m/s)."""
+OF_NEAR_PAIRS = ("x", "y", "push", "rub")
+"""Of each pair: from the second to the first robot; what they have changed each other's velocity by
+in this sub-step, apart and along their surfaces (m/s)."""
 
 
 @inlined
-def _enter(robots: Any, lane: int, near: Any, radius: Any) -> int:
-    """Enter the robots of a lane that may touch something; how many they are."""
-    count = 0
+def _enter_walls(robot: Any, lane: int, near: Any, k: int, radius: Any) -> None:
+    """Enter the two nearest walls of a robot."""
+    x, y = robot.x[lane], robot.y[lane]
+    wall_x, wall_y = robot.wall0_x[lane], robot.wall0_y[lane]
+    near.wall0_x[k], near.wall0_y[k] = wall_x, wall_y
+    near.wall0_gap[k] = robot.wall0_gap[lane] - radius - x * wall_x - y * wall_y
+    wall_x, wall_y = robot.wall1_x[lane], robot.wall1_y[lane]
+    near.wall1_x[k], near.wall1_y[k] = wall_x, wall_y
+    near.wall1_gap[k] = robot.wall1_gap[lane] - radius - x * wall_x - y * wall_y
+
+
+@inlined
+def _enter(robots: Any, lane: int, near: Any, radius: Any, reach: Any) -> tuple[int, int]:
+    """Enter the robots of a lane that may touch something; how many they are, how many a wall."""
+    count, walled = 0, 0
     for i in range(len(robots)):
         robot = robots[i]
         if robot.held[lane]:
@@ -41,19 +62,20 @@ def _enter(robots: Any, lane: int, near: Any, radius: Any) -> int:
             near.go_x[count], near.go_y[count] = robot.go_x[lane], robot.go_y[lane]
             near.to_x[count], near.to_y[count] = robot.to_x[lane], robot.to_y[lane]
             near.spin[count] = radius * robot.spin[lane]
-            x, y = robot.x[lane], robot.y[lane]
-            wall_x, wall_y = robot.wall0_x[lane], robot.wall0_y[lane]
-            near.wall0_x[count], near.wall0_y[count] = wall_x, wall_y
-            near.wall0_gap[count] = robot.wall0_gap[lane] - radius - x * wall_x - y * wall_y
-            wall_x, wall_y = robot.wall1_x[lane], robot.wall1_y[lane]
-            near.wall1_x[count], near.wall1_y[count] = wall_x, wall_y
-            near.wall1_gap[count] = robot.wall1_gap[lane] - radius - x * wall_x - y * wall_y
+            if robot.wall0_gap[lane] < radius + HALF * reach:
+                _enter_walls(robot, lane, near, count, radius)
+                near.walled[walled] = count
+                walled += 1
+            near.met[count], near.kept[count] = -1, robot.kept[lane]
             count += 1
-    return count
+    for k in range(count, (count + _BLOCK - 1) // _BLOCK * _BLOCK):
+        near.x[k], near.y[k], near.go_x[k], near.go_y[k] = ZERO, ZERO, ZERO, ZERO
+        near.to_x[k], near.to_y[k] = ZERO, ZERO
+    return count, walled
 
 
 @inlined
-def _list_pairs(near: Any, count: int, reach: Any) -> int:
+def _list_pairs(robots: Any, lane: int, near: Any, count: int, reach: Any) -> int:
     """List the pairs that may touch; how many they are."""
     pairs = 0
     for one in range(count):
@@ -61,21 +83,31 @@ def _list_pairs(near: Any, count: int, reach: Any) -> int:
             dx, dy = near.x[one] - near.x[two], near.y[one] - near.y[two]
             if dx * dx + dy * dy < reach * reach and pairs < MOST_PAIRS:
                 near.one[pairs], near.two[pairs] = one, two
-                near.pair_push[pairs] = ZERO
+                near.pair_push[pairs], near.pair_rub[pairs] = ZERO, ZERO
+                robot = robots[near.number[one]]
+                for slot in range(near.kept[one]):
+                    if robot.kept_with[slot, lane] == near.number[two]:
+                        near.pair_push[pairs] = robot.kept_push[slot, lane]
+                        near.pair_rub[pairs] = robot.kept_rub[slot, lane]
                 pairs += 1
     return pairs
 
 
 @inlined
-def _list_walled(near: Any, count: int, reach: Any) -> int:
-    """List the robots that may touch a wall; how many they are."""
-    walled = 0
+def _keep(robots: Any, lane: int, near: Any, count: int, touching: int) -> None:
+    """Keep how pairs push for the next step, each with its robot of the higher number."""
     for k in range(count):
-        away = near.x[k] * near.wall0_x[k] + near.y[k] * near.wall0_y[k] + near.wall0_gap[k]
-        if away < HALF * reach:
-            near.walled[walled] = k
-            walled += 1
-    return walled
+        if near.kept[k] > 0:
+            robots[near.number[k]].kept[lane] = 0
+    for at in range(touching):
+        p = U(near.touching[at])
+        robot = robots[near.number[near.one[p]]]
+        slot = robot.kept[lane]
+        if slot < MOST_KEPT:
+            robot.kept[lane] = slot + 1
+            robot.kept_with[slot, lane] = near.number[near.two[p]]
+            robot.kept_push[slot, lane] = near.pair_push[p]
+            robot.kept_rub[slot, lane] = near.pair_rub[p]
 
 
 @inlined
@@ -89,50 +121,81 @@ def _push(near: Any, p: int, push_x: Any, push_y: Any) -> None:
 
 
 @inlined
-def _begin_pair(near: Any, p: int, radius: Any) -> None:
-    """Where the two of a pair are from each other; they push as in the last sub-step."""
-    one, two = U(near.one[p]), U(near.two[p])
-    dx, dy = near.x[one] - near.x[two], near.y[one] - near.y[two]
-    d2, close = dx * dx + dy * dy, TWO * radius + _CLOSE
-    if d2 > close * close:
-        near.pair_gap[p], near.pair_push[p] = _CLOSE, ZERO
-        return
-    d = F(math.sqrt(d2))
-    per_d = ONE / d if d > ZERO else ZERO
-    near.pair_x[p], near.pair_y[p] = dx * per_d if d > ZERO else ONE, dy * per_d
-    near.pair_gap[p] = d - TWO * radius
-    if near.pair_push[p] > ZERO:
-        _push(near, p, near.pair_push[p] * near.pair_x[p], near.pair_push[p] * near.pair_y[p])
+def _go_on(near: Any, count: int) -> None:
+    """Move all for a sub-step, before which motors have not changed a velocity.
+
+    Unsigned numbers within whole blocks let LLVM make vectors.
+    """
+    for begin in range(0, count, _BLOCK):
+        for at in range(_BLOCK):
+            k = np.uint64(begin + at)
+            near.x[k] += _SUB_STEP * near.go_x[k]
+            near.y[k] += _SUB_STEP * near.go_y[k]
+            near.drive_x[k], near.drive_y[k] = ZERO, ZERO
+
+
+@inlined
+def _meet(near: Any, pairs: int, width: Any, sub_step: int) -> tuple[int, int]:
+    """List the pairs that touch and their robots; they push as in the last sub-step."""
+    touching, met = 0, 0
+    for p in range(pairs):
+        one, two = U(near.one[p]), U(near.two[p])
+        dx, dy = near.x[one] - near.x[two], near.y[one] - near.y[two]
+        d2 = dx * dx + dy * dy
+        if d2 >= width * width:
+            near.pair_push[p], near.pair_rub[p] = ZERO, ZERO
+            continue
+        per_d = ONE / F(math.sqrt(d2)) if d2 > ZERO else ZERO
+        x, y = dx * per_d if d2 > ZERO else ONE, dy * per_d
+        near.pair_x[p], near.pair_y[p] = x, y
+        push, rub = near.pair_push[p], near.pair_rub[p]
+        _push(near, p, push * x - rub * y, push * y + rub * x)
+        near.touching[touching] = p
+        touching += 1
+        if near.met[one] != sub_step:
+            near.met[one], near.driven[met] = sub_step, one
+            met += 1
+        if near.met[two] != sub_step:
+            near.met[two], near.driven[met] = sub_step, two
+            met += 1
+    return touching, met
 
 
 @inlined
 def _drive(near: Any, k: int, acceleration: Any) -> None:
     """The motors bring the velocity nearer to its target."""
-    dx, dy = near.to_x[k] - near.go_x[k], near.to_y[k] - near.go_y[k]
+    was_x, was_y = near.drive_x[k], near.drive_y[k]
+    dx, dy = was_x + near.to_x[k] - near.go_x[k], was_y + near.to_y[k] - near.go_y[k]
     d2 = dx * dx + dy * dy
     share = ONE if d2 <= acceleration * acceleration else acceleration / F(math.sqrt(d2))
-    near.go_x[k] += share * dx
-    near.go_y[k] += share * dy
+    near.drive_x[k], near.drive_y[k] = share * dx, share * dy
+    near.go_x[k] += near.drive_x[k] - was_x
+    near.go_y[k] += near.drive_y[k] - was_y
 
 
 @inlined
-def _keep_apart(near: Any, p: int, friction: Any) -> None:
-    """The two of a pair come no nearer than till they touch; their surfaces rub."""
-    if near.pair_gap[p] >= _CLOSE:
-        return
+def _keep_apart(near: Any, p: int, friction: Any) -> bool:
+    """The two of a pair that touch come no nearer and rub; whether that changed a push."""
     one, two = U(near.one[p]), U(near.two[p])
     x, y = near.pair_x[p], near.pair_y[p]
     go_x, go_y = near.go_x[one] - near.go_x[two], near.go_y[one] - near.go_y[two]
-    parting = go_x * x + go_y * y
-    before = near.pair_push[p]
-    push = before - HALF * (parting + _PER_SUB_STEP * near.pair_gap[p])
-    push = push if push > ZERO else ZERO
-    near.pair_push[p] = push
-    more = push - before
+    was, rubbed = near.pair_push[p], near.pair_rub[p]
+    push = above_zero(was - HALF * (go_x * x + go_y * y))
     sliding = go_y * x - go_x * y - near.spin[one] - near.spin[two]
-    rub = within(-HALF * sliding, friction * push)
-    if more != ZERO or rub != ZERO:
-        _push(near, p, more * x - rub * y, more * y + rub * x)
+    rub = within(rubbed - HALF * sliding, friction * push)
+    near.pair_push[p], near.pair_rub[p] = push, rub
+    more, rub = push - was, rub - rubbed
+    _push(near, p, more * x - rub * y, more * y + rub * x)
+    return abs(more) + abs(rub) > _SETTLED
+
+
+@inlined
+def _keep_all_apart(near: Any, touching: int, friction: Any) -> bool:
+    """Keep apart all pairs that touch; whether that changed a push."""
+    changed = False
+    for at in range(touching):
+        changed |= _keep_apart(near, U(near.touching[at]), friction)
+    return changed
 
 
 @inlined
@@ -143,6 +206,17 @@ def _stop_at(near: Any, k: int, wall_x: Any, wall_y: Any, gap: Any, friction: An
         along = near.go_y[k] * wall_x - near.go_x[k] * wall_y
         along -= within(along, -friction * away)
         near.go_x[k], near.go_y[k] = -along * wall_y, along * wall_x
+
+
+@inlined
+def _stop_at_walls(near: Any, walled: int, friction: Any) -> None:
+    """The robots that may touch a wall do not go into their nearest two."""
+    for at in range(walled):
+        k = U(near.walled[at])
+        wall_x, wall_y, gap = near.wall0_x[k], near.wall0_y[k], near.wall0_gap[k]
+        _stop_at(near, k, wall_x, wall_y, gap, friction)
+        wall_x, wall_y, gap = near.wall1_x[k], near.wall1_y[k], near.wall1_gap[k]
+        _stop_at(near, k, wall_x, wall_y, gap, friction)
 
 
 @called
@@ -168,29 +242,26 @@ def settle(
         wall_friction: Share of what a wall takes that slows down sliding.
         body_friction: The same of two bodies.
     """
-    count = _enter(robots, lane, near, radius)
-    pairs = _list_pairs(near, count, reach)
-    walled = _list_walled(near, count, reach)
-    for _ in range(_SUB_STEPS):
-        for k in range(count):
-            near.x[k] += _SUB_STEP * near.go_x[k]
-            near.y[k] += _SUB_STEP * near.go_y[k]
-        for p in range(pairs):
-            _begin_pair(near, p, radius)
-        for k in range(count):
-            _drive(near, k, acceleration)
-        for p in range(pairs):
-            _keep_apart(near, p, body_friction)
-        for at in range(walled):
-            k = near.walled[at]
-            wall_x, wall_y, gap = near.wall0_x[k], near.wall0_y[k], near.wall0_gap[k]
-            _stop_at(near, k, wall_x, wall_y, gap, wall_friction)
-            wall_x, wall_y, gap = near.wall1_x[k], near.wall1_y[k], near.wall1_gap[k]
-            _stop_at(near, k, wall_x, wall_y, gap, wall_friction)
+    count, walled = _enter(robots, lane, near, radius, reach)
+    pairs, touching = _list_pairs(robots, lane, near, count, reach), 0
+    for sub_step in range(_SUB_STEPS):
+        _go_on(near, count)
+        touching, met = _meet(near, pairs, TWO * radius, sub_step)
+        for begin in range(0, count, _BLOCK):
+            for at in range(_BLOCK):
+                _drive(near, np.uint64(begin + at), acceleration)
+        for _ in range(_ITERATIONS if touching else 0):
+            _stop_at_walls(near, walled, wall_friction)
+            if not _keep_all_apart(near, touching, body_friction):
+                break
+            for at in range(met):
+                _drive(near, U(near.driven[at]), acceleration)
+        _stop_at_walls(near, walled, wall_friction)
     for k in range(count):
         robot = robots[near.number[k]]
         robot.x[lane], robot.y[lane] = near.x[k], near.y[k]
         robot.go_x[lane], robot.go_y[lane] = near.go_x[k], near.go_y[k]
+    _keep(robots, lane, near, count, touching)
 
 
 @inlined
