@@ -128,6 +128,7 @@ def work_fields(parts: Parts, layout: Layout) -> Fields:
         fields |= {"near": I, **dict.fromkeys(("dx", "dy", "per_d"), F), **_near_robots()}
         pairs = {**dict.fromkeys(("one", "two", "touching"), I), **dict.fromkeys(_OF_NEAR_PAIRS, F)}
         fields |= {name: (kind, (contact.MOST_PAIRS,)) for name, kind in pairs.items()}
+        fields |= dict.fromkeys(("places_x", "places_y"), (F, (LANES, LANES)))
     return fields
 
 

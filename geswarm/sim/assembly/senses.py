@@ -53,7 +53,7 @@ def fields(lights: int) -> dict[str, type]:
     return {
         **dict.fromkeys(("left", "right", "go_x", "go_y", "to_x", "to_y", "spin", "turn"), F),
         **dict.fromkeys(walls, F),
-        **dict.fromkeys(("now_x", "now_y", "beside_x", "beside_y"), F),
+        **dict.fromkeys(("now_x", "now_y"), F),
         **dict.fromkeys(("held", "moves", "kept", "votes_black", "votes_white"), I),
         **dict.fromkeys([f"dark{light}" for light in range(lights)], I),
         **dict.fromkeys(lamps, F),
@@ -89,20 +89,15 @@ def of_others(source: Source) -> None:
             for light in range(lights):
                 source(f"robot.dark{light}[lane] = I(0)")
                 _to_lamp(source, light, "robot")
-    source("touch2 = radius * radius\nlost = U(F(65536.0) * rab_loss)" if hears else "")
     if hears:
+        source("lost = U(F(65536.0) * rab_loss)")
         source(f"within2 = {source.number('rab_range')} * rab_range\n{source.number('rab_loss')}")
     reach = "TWO * radius + epuck.RAY_LENGTH + F(0.001)"
     source(f"near2 = ({reach}) * ({reach})")
+    if hears:
+        _side_by_side(source)
     with source.inside("for i in range(len(robots)):"):
         source("robot = robots[i]")
-        if hears:
-            with source.inside("for k in range(len(robots)):"):
-                source("third = robots[k]")
-                with source.lanes():
-                    for along in "xy":
-                        beside = f"third.{along}[lane] - robot.{along}[lane]"
-                        source(f"third.beside_{along}[lane] = {beside}")
         with source.inside("for j in range(i + 1, len(robots)):"):
             source("other = robots[j]")
             _look_at_pair(source, hears)
@@ -114,6 +109,20 @@ def of_others(source: Source) -> None:
                     _see(source)
             for light in range(lights):
                 _shade(source, light)
+
+
+def _side_by_side(source: Source) -> None:
+    """All places of a simulation in a row: who is between two robots is looked up in few of all."""
+    with source.inside("for i in range(len(robots)):"):
+        source("robot = robots[i]")
+        with source.lanes():
+            for along in "xy":
+                source(f"work.places_{along}[lane, i] = robot.{along}[lane]")
+    with (
+        source.inside("for i in range(len(robots), -(-len(robots) // epuck.BLOCK) * epuck.BLOCK):"),
+        source.lanes(),
+    ):
+        source("work.places_x[lane, i], work.places_y[lane, i] = epuck.AWAY, epuck.AWAY")
 
 
 def _look_at_pair(source: Source, hears: bool) -> None:
@@ -132,17 +141,13 @@ def _look_at_pair(source: Source, hears: bool) -> None:
 
 def _hear(source: Source) -> None:
     """The messages that are not lost arrive if no body is in the way."""
-    with source.lanes():
-        source("work.nearest[lane] = touch2 * work.d2[lane]")
-    with source.inside("for k in range(0, len(robots), 2):"):
-        source("third, fourth = robots[k], robots[min(k + 1, len(robots) - 1)]")
-        with source.lanes():
-            source("dx, dy, d2 = work.dx[lane], work.dy[lane], work.d2[lane]")
-            source("reach2, blocks = work.nearest[lane], I(0)")
-            for each in ("third", "fourth"):
-                at = f"{each}.beside_x[lane], {each}.beside_y[lane]"
-                source(f"blocks = I(blocks | epuck.is_between({at}, dx, dy, d2, reach2))")
-            source("work.happens[lane] = work.happens[lane] if blocks == I(0) else I(0)")
+    with source.inside("for lane in range(width):"), source.inside("if work.happens[lane]:"):
+        source("dx, dy, d2 = work.dx[lane], work.dy[lane], work.d2[lane]")
+        places = (
+            "work.places_x[lane], work.places_y[lane], len(robots), robot.x[lane], robot.y[lane]"
+        )
+        with source.inside(f"if epuck.are_between({places}, dx, dy, d2, radius * radius * d2):"):
+            source("work.happens[lane] = I(0)")
     with source.lanes():
         source("per_d = inverse_root(work.d2[lane])")
         source("gap = above_zero(fma(F(100.0), work.d2[lane] * per_d, F(-7.0)))")

@@ -25,7 +25,7 @@ MOST_KEPT = 6
 _SUB_STEP, _SUB_STEPS = F(0.01), 10
 _ITERATIONS = 10
 _SETTLED = F(5e-3)  # pushes are found when they change by less (m/s); they go on from there
-_BLOCK = 8  # robots that are moved at once, in a vector
+_BLOCK = 16  # robots that are moved at once; LLVM makes no vectors of shorter loops
 _SLOP = F(1e-4)  # bodies that are so near to a wall touch it
 
 OF_THE_NEAR = ("x", "y", "go_x", "go_y", "to_x", "to_y", "spin", "drive_x", "drive_y")
@@ -122,10 +122,7 @@ def _push(near: Any, p: int, push_x: Any, push_y: Any) -> None:
 
 @inlined
 def _go_on(near: Any, count: int) -> None:
-    """Move all for a sub-step, before which motors have not changed a velocity.
-
-    Unsigned numbers within whole blocks let LLVM make vectors.
-    """
+    """Move all for a sub-step, in which motors have not changed a velocity yet."""
     for begin in range(0, count, _BLOCK):
         for at in range(_BLOCK):
             k = np.uint64(begin + at)
@@ -174,7 +171,7 @@ def _drive(near: Any, k: int, acceleration: Any) -> None:
 
 
 @inlined
-def _keep_apart(near: Any, p: int, friction: Any) -> bool:
+def _keep_apart(near: Any, p: int, friction: Any) -> Any:
     """The two of a pair that touch come no nearer and rub; whether that changed a push."""
     one, two = U(near.one[p]), U(near.two[p])
     x, y = near.pair_x[p], near.pair_y[p]
@@ -190,7 +187,7 @@ def _keep_apart(near: Any, p: int, friction: Any) -> bool:
 
 
 @inlined
-def _keep_all_apart(near: Any, touching: int, friction: Any) -> bool:
+def _keep_all_apart(near: Any, touching: int, friction: Any) -> Any:
     """Keep apart all pairs that touch; whether that changed a push."""
     changed = False
     for at in range(touching):

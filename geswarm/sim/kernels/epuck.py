@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from geswarm.sim.kernels.jit import called, inlined
 from geswarm.sim.kernels.single import HALF, ONE, TWO, ZERO, F, I, U, above_zero, angle_of, fma
 
@@ -21,6 +23,11 @@ READINGS = tuple(
 RAY_BEGINS, RAY_LENGTH = F(0.036), F(0.05)
 FAR_RAY = F(9.0)
 """Length of a ray that meets nothing."""
+
+BLOCK = 32
+"""Bodies that are looked at at once; LLVM makes no vectors of shorter loops."""
+AWAY = F(1e6)
+"""Where no body is (m)."""
 
 _AXES = tuple(
     (F(math.cos(math.radians(angle))), F(math.sin(math.radians(angle)))) for angle in RAYS[:4]
@@ -210,20 +217,32 @@ def most_votes(history: Any) -> Any:
 
 
 @inlined
-def is_between(x: Any, y: Any, to_x: Any, to_y: Any, to_d2: Any, reach2: Any) -> Any:
-    """Whether a body at (x, y) is on the line from the origin to (to_x, to_y).
+def are_between(
+    xs: Any, ys: Any, count: int, x: Any, y: Any, to_x: Any, to_y: Any, to_d2: Any, reach2: Any
+) -> Any:
+    """Whether some body is on the line from (x, y) to (x + to_x, y + to_y).
 
     Args:
-        x: Of its centre.
-        y: Of its centre.
-        to_x: End of the line.
-        to_y: End of the line.
-        to_d2: Its squared length.
-        reach2: `to_d2` times the squared radius of the body.
+        xs: Of all centres, in whole blocks of `BLOCK`.
+        ys: Of all centres.
+        count: How many there are; what is at the ends of the line is not on it.
+        x: Beginning of the line, and so y.
+        y: See x.
+        to_x: From there to the end, and so to_y.
+        to_y: See to_x.
+        to_d2: Squared length of the line.
+        reach2: `to_d2` times the squared radius of a body.
     """
-    along, across = fma(x, to_x, y * to_y), fma(x, to_y, -y * to_x)
-    within = I(I(along > ZERO) & I(along < to_d2))
-    return I(within & I(across * across < reach2))
+    found = I(0)
+    for begin in range(0, count, BLOCK):
+        for at in range(BLOCK):
+            k = np.uint64(begin + at)
+            beside_x, beside_y = xs[k] - x, ys[k] - y
+            along = fma(beside_x, to_x, beside_y * to_y)
+            across = fma(beside_x, to_y, -beside_y * to_x)
+            within = I(I(along > ZERO) & I(along < to_d2))
+            found = I(found | I(within & I(across * across < reach2)))
+    return found != I(0)
 
 
 @inlined
