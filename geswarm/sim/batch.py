@@ -179,6 +179,7 @@ class Group:
     ) -> None:
         """Start simulations (table, seed, individual, replicate)."""
         layout, parts = Layout(), controllers.parts
+        self._arena, self._of_places = scenario.arena, parts.of_places
         self._kernel = assemble(parts, layout)
         self._numbers = numbers_by_name(scenario, self._kernel.numbers, parts)
         self.width = _LANES_OF_A_VECTOR * -(-len(simulations) // _LANES_OF_A_VECTOR)
@@ -203,6 +204,9 @@ class Group:
 
     def measured(self, name: str) -> Values:
         """A measure of each simulation, shape (LANES,)."""
+        if measure := self._of_places.get(name):
+            x, y = (self.robots[along][:, : self.width] for along in "xy")
+            return np.pad(measure.of(x, y, self._arena), (0, LANES - self.width))
         total: Values = self.robots[name].sum(axis=0, dtype=np.float64)
         return total
 

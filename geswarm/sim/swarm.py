@@ -128,5 +128,8 @@ class Swarm:
                 robot[f"low_{name}"][lane] = place - float(robot[name][lane])
 
     def measured(self, name: str) -> float:
-        """The sum of a measure over the robots."""
+        """A measure: the sum over the robots, or what is made of their places."""
+        if measure := self.parts.of_places.get(name):
+            x, y = (self.of_robots(along)[:, np.newaxis] for along in "xy")
+            return float(measure.of(x, y, self._scenario.arena)[0])
         return float(self.of_robots(name).sum(dtype=np.float64))

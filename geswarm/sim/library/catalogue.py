@@ -11,17 +11,15 @@ from geswarm.rules.arguments import Argument, Choice, Number, Whole
 from geswarm.rules.declarations import InternalStateName
 from geswarm.rules.model import COMPARISONS, OPERATIONS, Value, format_value
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
-from geswarm.sim.library.terms import BUILT_IN
+from geswarm.sim.library.terms import BUILT_IN, AnyMeasure
 from geswarm.sim.library.vocabulary import parts_of
 from geswarm.sim.scenario.model import Scenario
 from geswarm.sim.terms import automode
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
-    Measure,
     Percept,
     Register,
-    SwarmMeasure,
 )
 
 _PACKAGE = Path(__file__).parents[3]
@@ -215,7 +213,7 @@ def _states(word: InternalStateName) -> str:
     return f"At the start {format_value(word.initially)}{momentary}."
 
 
-def _measure(measure: Measure | SwarmMeasure) -> Entry:
+def _measure(measure: AnyMeasure) -> Entry:
     return Entry(
         name=measure.name,
         kind="measure",

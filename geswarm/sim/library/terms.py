@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import ModuleType
+from typing import TypeAlias
 
 from geswarm.sim import terms
 from geswarm.sim.bodies import BODIES, Body
@@ -15,12 +16,13 @@ from geswarm.sim.terms.component import (
     CellMeasure,
     Measure,
     Percept,
+    PlacesMeasure,
     Register,
     Sum,
     SwarmMeasure,
 )
 
-_MEASURES = (Measure, SwarmMeasure, CellMeasure)
+AnyMeasure: TypeAlias = Measure | SwarmMeasure | CellMeasure | PlacesMeasure
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Terms:
     percepts: dict[str, Percept] = field(default_factory=dict)
     behaviours: dict[str, Behaviour] = field(default_factory=dict)
     registers: dict[str, Register] = field(default_factory=dict)
-    measures: dict[str, Measure | SwarmMeasure | CellMeasure] = field(default_factory=dict)
+    measures: dict[str, AnyMeasure] = field(default_factory=dict)
     sums: tuple[Sum, ...] = ()
 
     @classmethod
@@ -50,17 +52,13 @@ class Terms:
             percepts={each.word.name: each for each in found if isinstance(each, Percept)},
             behaviours=_by_name([each for each in found if isinstance(each, Behaviour)]),
             registers={each.word.name: each for each in found if isinstance(each, Register)},
-            measures={
-                each.name: each
-                for each in found
-                if isinstance(each, Measure | SwarmMeasure | CellMeasure)
-            },
+            measures={each.name: each for each in found if isinstance(each, AnyMeasure)},
             sums=tuple(each for each in found if isinstance(each, Sum)),
         )
 
 
 def _declared(module: ModuleType) -> list[object]:
-    kinds = (Percept, Behaviour, Register, Sum, *_MEASURES)
+    kinds = Percept | Behaviour | Register | Sum | AnyMeasure
     return [each for each in vars(module).values() if isinstance(each, kinds)]
 
 

@@ -19,11 +19,13 @@ from typing import Any
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
+from geswarm.sim.arena.model import Arena
 from geswarm.sim.kernels import single
 from geswarm.sim.kernels.single import F, I, U
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
+    PlacesMeasure,
     Sensor,
     Sum,
     Update,
@@ -31,6 +33,7 @@ from geswarm.sim.terms.component import (
 from geswarm.sim.terms.parts import Parts, PartsError
 
 _TRIES = 40
+_ROBOTS, _SIMULATIONS = 3, 2
 _BRANCHES: dict[type[ast.AST], str] = {
     ast.If: "`if`: write `a if condition else b`",
     ast.For: "`for`",
@@ -70,6 +73,24 @@ def require_sound(component: Component, parts: Parts) -> None:
         if problem := _problem(component, found):
             what = ", ".join(f"{name}={value:.4g}" for name, value in given.items())
             raise PartsError(f"{component.place}: {component.name}({what}): {problem}")
+
+
+def require_measures(measure: PlacesMeasure, arena: Arena) -> None:
+    """Try a measure of where robots are.
+
+    Raises:
+        PartsError: It raises an exception, or does not return a number for each simulation.
+    """
+    places = np.random.default_rng(1).uniform(-1.0, 1.0, (2, _ROBOTS, _SIMULATIONS))
+    x, y = places * np.array([arena.half_width, arena.half_length])[:, np.newaxis, np.newaxis]
+    try:
+        found = np.asarray(measure.of(x, y, arena))
+    except Exception as error:
+        line = _line_of(error, measure)
+        raise PartsError(f"{line}: {measure.name} raised {type(error).__name__}: {error}") from error
+    if found.shape != (_SIMULATIONS,) or not np.isfinite(found.astype(np.float64)).all():
+        expected = f"{_SIMULATIONS} numbers for {_SIMULATIONS} simulations of {_ROBOTS} robots"
+        raise PartsError(f"{measure.place}: {measure.name}: expected {expected}, got {found!r}")
 
 
 def plain(function: Callable[..., Any] | None) -> Callable[..., Any]:

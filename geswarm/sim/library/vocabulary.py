@@ -21,16 +21,17 @@ from geswarm.sim.assembly.source import Layout
 from geswarm.sim.bodies import Body
 from geswarm.sim.controllers.encoding import numbers_by_name
 from geswarm.sim.library.own_terms import load_own_terms
-from geswarm.sim.library.terms import BUILT_IN, Terms
-from geswarm.sim.library.vetting import own_components, require_sound
+from geswarm.sim.library.terms import BUILT_IN, AnyMeasure, Terms
+from geswarm.sim.library.vetting import own_components, require_measures, require_sound
 from geswarm.sim.scenario.model import Scenario
-from geswarm.sim.terms import automode, avoidance, objects
+from geswarm.sim.terms import avoidance, objects
 from geswarm.sim.terms.component import (
     Behaviour,
     Component,
     Effect,
     Measure,
     Percept,
+    PlacesMeasure,
     Register,
     Sensor,
     SwarmMeasure,
@@ -145,6 +146,8 @@ def _parts_of(scenario: Scenario, version: str) -> Parts:
         _, names = source_of(parts, Layout())
         numbers_by_name(scenario, names, parts)  # what components name shows in the source
         _require_sound(parts, own)
+    for each in parts.of_places.values():
+        require_measures(each, scenario.arena)
     return parts
 
 
@@ -172,9 +175,7 @@ def _parts(design: Design) -> Parts:
     ]
     sensors = dict.fromkeys(each.sensor for each in percepts)
     sensors |= dict.fromkeys(each.seen_by for each in registers if each.seen_by)
-    effects: tuple[Effect, ...] = (objects.drop, objects.pick_up) if design.objects else ()
-    if automode.delivered.name in design.measures:
-        effects = (*effects, automode.fetch, automode.deliver)
+    measures = tuple(measures_of(design, own))
     vocabulary = _vocabulary(design, percepts, behaviours, registers)
     plain = {each.word.name: each for each in behaviours if not each.arguments}
     first = plain.get(design.initial_behaviour)
@@ -196,8 +197,8 @@ def _parts(design: Design) -> Parts:
         registers=registers,
         sums=() if design.body.is_inert else (*BUILT_IN[design.body.name].sums, *own.sums),
         steering=() if design.body.is_inert else (avoidance.avoid,),
-        effects=effects,
-        measures=tuple(measures_of(design, own)),
+        effects=tuple(dict.fromkeys(_effects(design, measures))),
+        measures=measures,
     )
 
 
@@ -297,9 +298,9 @@ def _declared(name: str, values: str, declared: str) -> Register:
     return register(name, kinds)
 
 
-def measures_of(design: Design, own: Terms) -> Iterator[Measure | SwarmMeasure]:
+def measures_of(design: Design, own: Terms) -> Iterator[AnyMeasure]:
     """What is counted; raises TermError at one that is not known, or counts what there is not."""
-    made: dict[str, Measure | SwarmMeasure] = {
+    made: dict[str, AnyMeasure] = {
         f"on_{area}": Measure(None, called=f"on_{area}", given=(f"in_{area}",), unit="robot-steps")
         for area in design.areas
     }
@@ -317,9 +318,29 @@ def measures_of(design: Design, own: Terms) -> Iterator[Measure | SwarmMeasure]:
         of_objects = isinstance(found, Measure) and found.at in (objects.drop, objects.pick_up)
         if of_objects and not design.objects:
             raise TermError(f"{name} counts objects, but the scenario has none", name)
-        if found is automode.delivered and not {"food", "nest"} <= set(design.areas):
-            raise TermError(f"{name} counts items, but there are no areas food and nest", name)
+        if name in known and (missing := _areas_of(found) - set(design.areas)):
+            listed = " and ".join(sorted(missing))
+            raise TermError(f"{name} is about {listed}, but there is no area of that name", name)
         yield found
+
+
+def _effects(design: Design, measures: Iterable[AnyMeasure]) -> Iterator[Effect]:
+    """What happens to objects if there are any, and what measures count."""
+    if design.objects:
+        yield from (objects.drop, objects.pick_up)
+    for each in measures:
+        if isinstance(each, Measure) and isinstance(each.at, Effect):
+            yield from filter(None, (each.at.after, each.at))
+
+
+def _areas_of(measure: AnyMeasure) -> set[str]:
+    """The areas that a measure and what it counts name."""
+    if isinstance(measure, PlacesMeasure):
+        return set(measure.areas)
+    at = measure.at
+    named = [measure, at, at.after] if isinstance(at, Effect) else [measure]
+    needs = (name for each in named if each for name in each.needs)
+    return {name.removeprefix("in_") for name in needs if name.startswith("in_")}
 
 
 def _vocabulary(

@@ -24,13 +24,14 @@ from geswarm.sim.kernels.single import (
     inverse_root,
     within,
 )
-from geswarm.sim.terms.component import Bits, Integer, Real
+from geswarm.sim.terms.component import Bits, Integer, Places, Real
 from geswarm.sim.terms.declare import (
     behaviour,
     condition,
     count,
     measure,
     percept,
+    places_measure,
     register,
     sensor,
     swarm_measure,
@@ -50,6 +51,7 @@ __all__ = [
     "I",
     "Integer",
     "Number",
+    "Places",
     "Real",
     "Whole",
     "above_zero",
@@ -62,6 +64,7 @@ __all__ = [
     "inverse_root",
     "measure",
     "percept",
+    "places_measure",
     "register",
     "sensor",
     "swarm_measure",

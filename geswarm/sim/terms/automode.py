@@ -167,7 +167,7 @@ def fetch(loaded: Integer, in_food: Integer) -> Integer:
     return I(in_food & I(I(1) - loaded))
 
 
-@effect(then=unload)
+@effect(then=unload, after=fetch)
 def deliver(loaded: Integer, in_nest: Integer) -> Integer:
     """The item is left in the nest, as soon as the robot is there."""
     return I(in_nest & loaded)

@@ -16,6 +16,7 @@ scenario (`rab_range`, `max_speed`). What no one names is not computed.
 | `effect` | whether it happens to the robot in this step |
 | `measure` | a number that is counted for each robot |
 | `swarm_measure` | a number of the whole swarm, of sums such as `sum_in_nest` |
+| `places_measure` | a number of the whole swarm, of where its robots are (not in the kernel) |
 | `condition` | whether it is so, for a behaviour's `again` |
 
 What rules call a sensor's reading is a `percept` of it; behaviours and registers have their words
@@ -34,8 +35,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeAlias
 
+import numpy as np
+import numpy.typing as npt
+
 from geswarm.rules.declarations import BehaviourName, InternalStateName, PreconditionName
 from geswarm.rules.model import Value
+from geswarm.sim.arena.model import Arena
 from geswarm.sim.kernels.jit import inlined
 
 Real: TypeAlias = Any
@@ -45,6 +50,8 @@ Integer: TypeAlias = Any
 Bits: TypeAlias = Any
 """32 random bits, a numpy.uint32."""
 Function: TypeAlias = Callable[..., Any]
+Places: TypeAlias = npt.NDArray[Any]
+"""Coordinates of robots (m), shape (robots, simulations); or a number for each simulation."""
 
 OF_A_PAIR = ("dx", "dy", "d2", "per_d")
 """From the other robot to this one (m), squared distance, its inverse root."""
@@ -196,10 +203,16 @@ class Effect(Component):
     """What happens to a robot, and an object if `nearest` names the reach in which it must be.
 
     The nearest object's new place is what `then` writes to `object_x` and `object_y`.
+
+    Attributes:
+        then: What it changes.
+        nearest: The reach, by name.
+        after: The effect without which this one never happens, looked at before it.
     """
 
     then: Update | None = None
     nearest: str | None = None
+    after: Effect | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,6 +251,28 @@ class CellMeasure(SwarmMeasure):
     """
 
     cells: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class PlacesMeasure(Component):
+    """A number of the whole swarm, of where its robots are at the end.
+
+    The function gets (x, y, arena) and runs in Python, once for many simulations: x and y are of
+    shape (robots, simulations), in metres, what it returns of shape (simulations,).
+
+    Attributes:
+        unit: Of the number.
+        areas: That it is about.
+    """
+
+    unit: str = ""
+    areas: tuple[str, ...] = ()
+
+    def of(self, x: Places, y: Places, arena: Arena) -> Places:
+        """The number for each simulation."""
+        assert self.function is not None
+        found: Places = self.function(x.astype(np.float64), y.astype(np.float64), arena)
+        return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from geswarm.sim.terms.component import (
     Function,
     Measure,
     Percept,
+    PlacesMeasure,
     Register,
     Sensor,
     Steering,
@@ -203,9 +204,11 @@ def count(output: str) -> Callable[[Function], Sum]:
     return lambda function: Sum(function, output=output, form="count")
 
 
-def effect(then: Update, nearest: str | None = None) -> Callable[[Function], Effect]:
+def effect(
+    then: Update, nearest: str | None = None, after: Effect | None = None
+) -> Callable[[Function], Effect]:
     """The function returns 1 if the effect happens, else 0; see `Effect`."""
-    return lambda function: Effect(function, then=then, nearest=nearest)
+    return lambda function: Effect(function, then=then, nearest=nearest, after=after)
 
 
 def measure(
@@ -225,3 +228,8 @@ def swarm_measure(
 ) -> Callable[[Function], SwarmMeasure]:
     """The function returns a number, see `SwarmMeasure`."""
     return lambda function: SwarmMeasure(function, at=at, kind=kind, unit=unit)
+
+
+def places_measure(unit: str = "", areas: Sequence[str] = ()) -> Callable[[Function], PlacesMeasure]:
+    """The function returns a number for each simulation, see `PlacesMeasure`."""
+    return lambda function: PlacesMeasure(function, unit=unit, areas=tuple(areas))

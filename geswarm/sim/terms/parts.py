@@ -21,6 +21,7 @@ from geswarm.sim.terms.component import (
     Effect,
     Measure,
     Percept,
+    PlacesMeasure,
     Register,
     Sensor,
     Steering,
@@ -78,7 +79,7 @@ class Parts:
     sums: tuple[Sum, ...] = ()
     steering: tuple[Steering, ...] = ()
     effects: tuple[Effect, ...] = ()
-    measures: tuple[Measure | SwarmMeasure, ...] = ()
+    measures: tuple[Measure | SwarmMeasure | PlacesMeasure, ...] = ()
 
     def __post_init__(self) -> None:
         self._check_names()
@@ -109,7 +110,7 @@ class Parts:
             if behaviour.goes_on:
                 yield behaviour.goes_on
         yield from (effect.then for effect in self.effects if effect.then)
-        yield from self.measures
+        yield from self.counted
 
     @cached_property
     def updates(self) -> tuple[Update, ...]:
@@ -125,9 +126,20 @@ class Parts:
             fields.update(dict.fromkeys(one.outputs, kind))
         for each in self.updates:
             fields.update({name: kind for name, kind in each.writes.items() if not of_object(name)})
-        for measure in self.measures:
+        for measure in self.counted:
             fields[measure.name] = I if measure.kind is int else F
         return fields
+
+    @cached_property
+    def counted(self) -> tuple[Measure | SwarmMeasure, ...]:
+        """The measures that the kernel counts."""
+        return tuple(each for each in self.measures if not isinstance(each, PlacesMeasure))
+
+    @cached_property
+    def of_places(self) -> dict[str, PlacesMeasure]:
+        """The measures of where robots are, by name."""
+        found = (each for each in self.measures if isinstance(each, PlacesMeasure))
+        return {each.name: each for each in found}
 
     @cached_property
     def swarm_sums(self) -> dict[str, type]:
