@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import argparse
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from geswarm.cli.arguments import SCENARIO_HELP, UsageError, Verbs
-from geswarm.cli.output import print_texts
+from geswarm.cli.arguments import (
+    SCENARIO_HELP,
+    UsageError,
+    Verbs,
+    non_negative_int,
+    positive_int,
+)
+from geswarm.cli.output import print_texts, write_files
 
 if TYPE_CHECKING:
     from geswarm.rules.arguments import Argument
@@ -17,7 +24,15 @@ if TYPE_CHECKING:
 
 def add_library_verbs(verbs: Verbs) -> None:
     """Add scenarios and terms."""
-    scenarios = verbs.add_parser("scenarios", help="list the scenarios that come with GESwarm")
+    scenarios = verbs.add_parser(
+        "scenarios", help="list the scenarios that come with GESwarm, draw one, or generate some"
+    )
+    scenarios.add_argument("scenario", nargs="?", metavar="S", help=f"{SCENARIO_HELP}, to draw")
+    scenarios.add_argument("--picture", metavar="FILE", help="where its arena is drawn, as SVG")
+    scenarios.add_argument("--generate", choices=["mg1"], help="write random missions for e-pucks")
+    scenarios.add_argument("--seed", type=non_negative_int, default=0, metavar="N")
+    scenarios.add_argument("--number", type=positive_int, default=1, metavar="K")
+    scenarios.add_argument("-o", "--output", metavar="DIR", help="where they are written")
     scenarios.add_argument("--json", action="store_true", help="one JSON object on stdout")
     scenarios.set_defaults(command=_scenarios)
 
@@ -30,6 +45,47 @@ def add_library_verbs(verbs: Verbs) -> None:
 
 
 def _scenarios(options: argparse.Namespace) -> int:
+    if (options.scenario is None) != (options.picture is None):
+        raise UsageError("scenarios: expected S and --picture FILE together")
+    if (options.generate is None) != (options.output is None):
+        raise UsageError("scenarios: expected --generate mg1 and -o DIR together")
+    if options.scenario is None and options.generate is None:
+        return _list_scenarios(options)
+    if options.scenario is not None:
+        _draw(options.scenario, options.picture)
+    if options.generate is not None:
+        _generate(options)
+    return 0
+
+
+def _draw(name: str, file: str) -> None:
+    from geswarm.exports.arena_picture import arena_picture
+    from geswarm.sim import ScenarioError, load_scenario
+
+    try:
+        scenario = load_scenario(name)
+    except ScenarioError as error:
+        raise UsageError(str(error)) from error
+    write_files({file: arena_picture(scenario)})
+
+
+def _generate(options: argparse.Namespace) -> None:
+    from geswarm.sim.mission_generator import mission
+
+    folder = Path(options.output)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"{folder}: cannot be made: {error.strerror}") from error
+    files: dict[str | None, str] = {
+        str(folder / f"mg1-{options.seed}-{number}.yaml"): mission(options.seed, number)
+        for number in range(1, options.number + 1)
+    }
+    write_files(files)
+    print("\n".join(map(str, files)))
+
+
+def _list_scenarios(options: argparse.Namespace) -> int:
     from geswarm.sim import load_scenario, scenario_about, scenario_names
 
     found = [(load_scenario(name), scenario_about(name)) for name in scenario_names()]

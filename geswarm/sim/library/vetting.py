@@ -87,7 +87,9 @@ def require_measures(measure: PlacesMeasure, arena: Arena) -> None:
         found = np.asarray(measure.of(x, y, arena))
     except Exception as error:
         line = _line_of(error, measure)
-        raise PartsError(f"{line}: {measure.name} raised {type(error).__name__}: {error}") from error
+        raise PartsError(
+            f"{line}: {measure.name} raised {type(error).__name__}: {error}"
+        ) from error
     if found.shape != (_SIMULATIONS,) or not np.isfinite(found.astype(np.float64)).all():
         expected = f"{_SIMULATIONS} numbers for {_SIMULATIONS} simulations of {_ROBOTS} robots"
         raise PartsError(f"{measure.place}: {measure.name}: expected {expected}, got {found!r}")

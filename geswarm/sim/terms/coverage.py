@@ -112,7 +112,7 @@ def distance_on_surface(x: Places, y: Places, arena: Arena) -> Places:
 
 @places_measure(unit="m", areas=("perimeter",))
 def distance_on_perimeter(x: Places, y: Places, arena: Arena) -> Places:
-    """At the end: mean distance of the points around the area perimeter to the nearest robot there."""
+    """At the end: mean distance of points around the area perimeter to the nearest robot there."""
     shape = _only(arena, "perimeter")
     robots = np.stack([x.ravel(), y.ravel()], axis=1)
     counts = (from_border(corners(shape), robots) <= _BODY).reshape(x.shape)
@@ -121,7 +121,7 @@ def distance_on_perimeter(x: Places, y: Places, arena: Arena) -> Places:
 
 @places_measure(unit="m2")
 def covered(x: Places, y: Places, arena: Arena) -> Places:
-    """At the end: ground within 0.25 m of the largest group of robots linked by less than 0.35 m."""
+    """At the end: ground within 0.25 m of the largest group of robots, linked within 0.35 m."""
     shape = arena.resolved(arena.outline)
     points = _surface(shape)
     inside = _in_the_largest_group(x, y)
@@ -131,7 +131,8 @@ def covered(x: Places, y: Places, arena: Arena) -> Places:
         reached |= (dx * dx + dy * dy <= _COVERS * _COVERS) & members
     west, south, east, north = extent_of(shape)
     each = (east - west) / len(_between(west, east)) * (north - south)
-    return reached.sum(axis=0) * each / len(_between(south, north))
+    area: Places = reached.sum(axis=0) * each / len(_between(south, north))
+    return area
 
 
 def _in_the_largest_group(x: Places, y: Places) -> npt.NDArray[np.bool_]:

@@ -230,6 +230,8 @@ def swarm_measure(
     return lambda function: SwarmMeasure(function, at=at, kind=kind, unit=unit)
 
 
-def places_measure(unit: str = "", areas: Sequence[str] = ()) -> Callable[[Function], PlacesMeasure]:
+def places_measure(
+    unit: str = "", areas: Sequence[str] = ()
+) -> Callable[[Function], PlacesMeasure]:
     """The function returns a number for each simulation, see `PlacesMeasure`."""
     return lambda function: PlacesMeasure(function, unit=unit, areas=tuple(areas))
