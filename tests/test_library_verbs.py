@@ -1,11 +1,14 @@
 """`geswarm scenarios` and `geswarm terms` as a user calls them."""
 
 import json
+import xml.etree.ElementTree as ET
 
+import numpy as np
 import pytest
 
 from geswarm.cli import main
 from geswarm.sim import load_scenario, scenario_names
+from geswarm.sim.arena.geometry import distances
 from geswarm.sim.library.terms import BUILT_IN
 
 
@@ -93,3 +96,49 @@ def test_a_scenario_offers_its_own(tmp_path, capsys):
 def test_a_wrong_scenario_is_a_usage_error(capsys):
     assert main(["terms", "--scenario", "moon"]) == 2
     assert "there is no scenario or file" in capsys.readouterr().err
+
+
+def test_an_arena_is_drawn(tmp_path, capsys):
+    file = tmp_path / "sca.svg"
+    assert printed(capsys, "scenarios", "sca", "--picture", str(file)) == ""
+    tags = [each.tag.rpartition("}")[2] for each in ET.parse(file).iter()]
+    walls, patches, lights, start = 3, 3, 1, 1
+    outlines = 3  # clip, ground, wall
+    assert tags.count("polygon") == outlines + walls + 1  # the shelter
+    assert tags.count("circle") == patches - 1 + lights + start
+
+
+def test_missions_are_generated(tmp_path, capsys):
+    folder = tmp_path / "deep" / "missions"
+    arguments = ["scenarios", "--generate", "mg1", "--seed", "5", "-o", str(folder), "--number"]
+    names = printed(capsys, *arguments, "40").split()
+    assert names == [str(folder / f"mg1-5-{k}.yaml") for k in range(1, 41)]
+    first = (folder / "mg1-5-1.yaml").read_text()
+    found = [load_scenario(name) for name in names]
+    printed(capsys, *arguments, "1")
+    assert (folder / "mg1-5-1.yaml").read_text() == first
+    measures = {each.measures for each in found}
+    assert measures == {(name,) for name in ("delivered", "on_home", "larger_group", "max_group")}
+    assert {each.duration for each in found} == {60, 120, 180}
+    assert {len(each.arena.outline.points) for each in found} == {3, 4, 6}
+    assert {len(each.arena.obstacles) for each in found} == {0, 1, 2, 3}
+    assert all(15 <= each.robots <= 20 and each.reference == "" for each in found)
+    for each in found:
+        discs = [patch.shape for patch in each.arena.patches]
+        for k, disc in enumerate(discs):
+            for other in discs[:k]:
+                apart = distances(other, np.array([[disc.x, disc.y]]))[0]
+                assert apart >= disc.radius - 1e-9
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["sca"], "expected S and --picture FILE together"),
+        (["--generate", "mg1"], "expected --generate mg1 and -o DIR together"),
+        (["moon", "--picture", "x.svg"], "there is no scenario or file"),
+    ],
+)
+def test_what_is_drawn_or_generated_must_be_said(arguments, message, capsys):
+    assert main(["scenarios", *arguments]) == 2
+    assert message in capsys.readouterr().err

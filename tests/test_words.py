@@ -8,10 +8,11 @@ from geswarm.cli import main
 from geswarm.evolution import RunConfig
 from geswarm.ge import Settings
 from geswarm.rules import load_rule_set, parse_json, parse_text, parse_yaml
-from geswarm.sim import load_scenario, parse_scenario, vocabulary_of
+from geswarm.sim import load_scenario, parse_scenario, scenario_names, vocabulary_of
 
 AAC = vocabulary_of(load_scenario("aac"))
-NEW = ["aac", "aggregation", "homing", "xor"]
+E_PUCK = [name for name in scenario_names() if load_scenario(name).body == "e-puck"]
+NEW = ["aac", "aggregation", "homing", "xor", *E_PUCK]
 
 
 def out(capsys, *arguments, status=0):

@@ -33,11 +33,12 @@ _PAGES = {
     "scenarios": "Scenario files",
     "terms": "All terms and measures",
     "own-terms": "Terms of one's own",
+    "missions": "Missions of the field",
     "automode": "For AutoMoDe users",
     "commands": "Commands in detail",
 }
 """In the order in which they are read."""
-_INLINE = re.compile(r"`([^`]+)`|\[([^]]+)\]\(([\w./-]+)\)|(<br>)")
+_INLINE = re.compile(r"`([^`]+)`|(!?)\[([^]]+)\]\(([\w./-]+)\)|(<br>)")
 
 
 def guide_page(folder: Path, name: str) -> str | None:
@@ -99,13 +100,15 @@ def _cells(line: str) -> list[str]:
 
 
 def _inline(text: str) -> str:
-    """Text with code, links and line breaks in it; all else is shown as it is written."""
+    """Text with code, links, pictures and line breaks in it; all else is shown as it is written."""
     found, at = [], 0
     for match in _INLINE.finditer(text):
         found.append(html.escape(text[at : match.start()], quote=False))
-        code, label, target, _ = match.groups()
+        code, picture, label, target, _ = match.groups()
         if code is not None:
             found.append(f"<code>{html.escape(code, quote=False)}</code>")
+        elif picture:
+            found.append(f'<img src="{html.escape(target)}" alt="{html.escape(label)}">')
         elif label is not None:
             page = target.removesuffix(".md") + ".html" if target.endswith(".md") else target
             found.append(f'<a href="{html.escape(page)}">{_inline(label)}</a>')

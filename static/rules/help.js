@@ -24,6 +24,7 @@ const GUIDE = [
   ["scenarios", "Scenario files"],
   ["terms", "All terms"],
   ["own-terms", "Own terms"],
+  ["missions", "Missions"],
   ["automode", "AutoMoDe"],
   ["commands", "Commands"],
 ];

@@ -10,7 +10,7 @@ from geswarm.app.server.guide import guide_page
 
 FOLDER = static_folder() / "guide"
 NAMES = sorted(page.stem for page in FOLDER.glob("*.md"))
-VOID = {"meta", "link", "br"}
+VOID = {"meta", "link", "br", "img"}
 
 
 class Tree(HTMLParser):
@@ -45,7 +45,12 @@ def test_pages_show_all_that_is_written(name):
     tree = read(guide_page(FOLDER, name))
     tables = len(re.findall(r"^\| ---", written, re.MULTILINE))
     assert [tag for tag, _ in tree.found].count("table") == tables
-    plain = re.sub(r"\[([^]]+)\]\([^)]+\)", r"\1", written).replace("\\|", "|")
+    pictures = re.findall(r"!\[[^]]+\]\(([^)]+)\)", written)
+    assert [attrs["src"] for tag, attrs in tree.found if tag == "img"] == pictures
+    for picture in pictures:
+        assert static_response(FOLDER, f"/guide/{picture}", "localhost").status_code == 200
+    plain = re.sub(r"!\[[^]]+\]\([^)]+\)", "", written)
+    plain = re.sub(r"\[([^]]+)\]\([^)]+\)", r"\1", plain).replace("\\|", "|")
     for word in re.findall(r"[\w.()-]{3,}", plain.replace("<br>", " ")):
         if not set(word) <= {"-"}:
             assert word in tree.text, word
