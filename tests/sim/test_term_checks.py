@@ -143,3 +143,26 @@ def test_own_terms_that_cannot_be_loaded_name_both_files(code, message, tmp_path
         load_scenario(path)
     assert f"{path}:2: terms: " in str(error.value)
     assert message in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("code", "message"),
+    [
+        ("x.mean(axis=0)", ""),
+        ("x.mean()", "mine.py, line 4: spread: expected 2 numbers for 2 simulations of 3 robots"),
+        ("x.mean(axis=7)", "mine.py, line 6: spread raised AxisError"),
+    ],
+)
+def test_measures_of_places_are_tried(code, message, tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "from geswarm.sim.terms import Places, places_measure\n\n\n@places_measure(unit='m')\n"
+        f"def spread(x: Places, y: Places, arena: object) -> Places:\n    return {code}\n"
+    )
+    path = tmp_path / "mine.yaml"
+    path.write_text(AAC + "terms: mine.py\nmeasures: [spread]\nobjective: spread\n")
+    if not message:
+        assert load_scenario(path).measures == ("spread",)
+        return
+    with pytest.raises(ScenarioError) as error:
+        load_scenario(path)
+    assert message in str(error.value)
