@@ -26,6 +26,14 @@ def _here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
+@pytest.fixture
+def short(tmp_path):
+    """A scenario in which many generations take little time."""
+    path = tmp_path / "short.yaml"
+    path.write_text("duration: 500\n")
+    return str(path)
+
+
 def open_page(at, page):
     return connect(at.replace("http", "ws") + f"/{page}/socket", open_timeout=PATIENCE)
 
@@ -62,9 +70,9 @@ def undisturbed(directory, place):
 @pytest.mark.parametrize(
     "number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT], ids=lambda number: number.name
 )
-def test_an_evolution_goes_on_exactly_without_its_dashboard(tmp_path, number):
+def test_an_evolution_goes_on_exactly_without_its_dashboard(tmp_path, short, number):
     with (
-        started("--port", "0", XDG_STATE_HOME=str(tmp_path)) as process,
+        started("--port", "0", "--scenario", short, XDG_STATE_HOME=str(tmp_path)) as process,
         open_page(address(process), "evolution") as page,
     ):
         directory = Path("runs", begin(page)["run"])
