@@ -119,30 +119,40 @@ def test_kernel_does_what_the_twin_does(behaviour, argument, steps):
     assert (off < 1e-4).mean() > 0.9
 
 
-@pytest.mark.parametrize(
-    ("pushing", "standing", "speed", "exact"),
-    [
-        (1, 1, 0.06, 0.002),
-        (2, 1, 0.12, 0.005),
-        (1, 2, 0.0, 0.005),
-        (3, 1, 0.12, 0.005),
-        (3, 2, 0.12, 0.005),
-    ],
-)
-def test_pushing_is_a_vote(pushing, standing, speed, exact):
+def pushed(pushing, standing):
+    """Where robots in a line are before and after the last of 30 steps; some push others."""
     robots = pushing + standing
     poses = np.zeros((1, robots, 3))
-    poses[0, :, 0] = -0.3 + 0.07 * np.arange(robots) + 0.0309 * (np.arange(robots) >= pushing)
+    poses[0, :, 0] = -0.3 + 0.07 * np.arange(robots) + 0.03 * (np.arange(robots) >= pushing)
     group = group_of("STOP", 0, poses)
     for step in range(30):
         for wheel in ("left", "right"):
             group.robots[wheel][:pushing] = 0.12
         before = places(group, 1)
         group.run(step, 1)
-    went = (places(group, 1) - before)[0, :, 0]
-    assert went / 0.1 == pytest.approx(np.full(robots, speed), abs=exact)
-    # What the robots were in each other when they were first found to be, and no more.
-    assert np.diff(places(group, 1)[0, :, 0]).min() > 0.07 - 0.5 * 0.12 * 0.01 - 2e-5
+    return before[0, :, 0], places(group, 1)[0, :, 0]
+
+
+LINES = [
+    (1, 1, 0.06, 0.002),
+    (2, 1, 0.12, 0.005),
+    (1, 2, 0.0, 0.005),
+    (3, 1, 0.12, 0.005),
+    (3, 2, 0.12, 0.005),
+]
+
+
+@pytest.mark.parametrize(("pushing", "standing", "speed", "exact"), LINES)
+def test_pushing_is_a_vote(pushing, standing, speed, exact):
+    before, after = pushed(pushing, standing)
+    assert (after - before) / 0.1 == pytest.approx(np.full(len(after), speed), abs=exact)
+
+
+@pytest.mark.xfail(strict=True, reason="about 1 mm; real traces have up to 1.4 mm, lines 0.2 mm")
+@pytest.mark.parametrize(("pushing", "standing"), [line[:2] for line in LINES])
+def test_robots_in_a_line_are_hardly_in_each_other(pushing, standing):
+    _, after = pushed(pushing, standing)
+    assert np.diff(after).min() > 0.0698
 
 
 @pytest.mark.parametrize("case", CONTACTS, ids=lambda c: f"{c['controller']} {c['seed']}")
