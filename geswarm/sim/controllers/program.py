@@ -19,7 +19,7 @@ from geswarm.rules.findings import Finding, Place, RuleSetError
 from geswarm.rules.model import Action, BehaviourChange, Precondition, RuleSet, StateChange, Term
 from geswarm.rules.names import require_known_names
 from geswarm.sim.assembly.records import ACTION, CHANCE, RULE, Records
-from geswarm.sim.kernels.table import ROW_BEHAVIOURS, Encoded
+from geswarm.sim.kernels.table import ROW_BEHAVIOURS, ByChance, Encoded
 from geswarm.sim.terms.component import Register
 from geswarm.sim.terms.parts import MOST_VALUES, Parts
 
@@ -186,8 +186,8 @@ def encode(
     instances: Sequence[Instances],
     fails: Sequence[float],
     parts: Parts,
-) -> Encoded:
-    """Enabled rules of rule sets in numbers.
+) -> tuple[Encoded, ByChance | None]:
+    """Enabled rules of rule sets in numbers, and by which chances they may act if any does.
 
     Args:
         rule_sets: What to encode.
@@ -199,7 +199,7 @@ def encode(
         RuleSetError: A name is not in the vocabulary or a probability is outside [0, 1].
     """
     rule_ends, accepts, masks, action_ends = [], [], [], []
-    drawn: list[int] = []
+    rows: list[int] = []
     holding: list[Chances] = []
     chances, targets, changes = [], [], []
     for rule_set, own in zip(rule_sets, instances, strict=True):
@@ -207,9 +207,9 @@ def encode(
             if not rule.enabled:
                 continue
             accepts.append(_accepted_by(rule.preconditions, parts))
-            by_chance = _holding(rule.preconditions, parts) if parts.drawn_sensors else None
-            drawn.append(-1 if by_chance is None else len(holding))
-            holding += [] if by_chance is None else [by_chance]
+            own_chances = _holding(rule.preconditions, parts) if parts.drawn_sensors else None
+            rows.append(-1 if own_chances is None else len(holding))
+            holding += [] if own_chances is None else [own_chances]
             masks.append(own.mask(rule.behaviours))
             for action in rule.actions:
                 target, change = own.effect(action)
@@ -218,6 +218,10 @@ def encode(
                 changes.append(change)
             action_ends.append(len(chances))
         rule_ends.append(len(masks))
+    by_chance = None
+    if parts.drawn_sensors:
+        table = np.array(holding).reshape(-1, len(parts.sensors), MOST_VALUES)
+        by_chance = ByChance(np.array(rows, dtype=np.int64), table)
     return encoded(
         parts,
         fails,
@@ -225,14 +229,12 @@ def encode(
         instances=[len(own.terms) for own in instances],
         restarting=[own.restarting for own in instances],
         accepted=np.array(accepts, dtype=np.uint64).reshape(-1, len(parts.sensors)),
-        drawn=drawn,
-        holding=np.array(holding).reshape(-1, len(parts.sensors), MOST_VALUES),
         behaviours=masks,
         action_ends=action_ends,
         chances=np.array(chances, dtype=np.float64),
         targets=targets,
         changes=np.array(changes, dtype=np.int64).reshape(-1, 5),
-    )
+    ), by_chance
 
 
 def encoded(parts: Parts, fails: Sequence[float], **rules: Any) -> Encoded:

@@ -25,10 +25,11 @@ from geswarm.sim.kernels.table import (
     MOST_RULES,
     ROOM,
     ROW_BEHAVIOURS,
+    ByChance,
     Encoded,
     Tables,
 )
-from geswarm.sim.terms.parts import MOST_STATE_BITS, MOST_VALUES, Parts
+from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
 
 Controller: TypeAlias = RuleSet | ControlTable | Machine
 
@@ -89,12 +90,12 @@ def compile_controllers(
         instances, tables = _of_machines(machined, len(controllers), fails, parts)
     elif len(short) == len(controllers):
         instances = [Instances.of(each, parts) for each in short]
-        tables = _compiled(encode(short, instances, fails, parts), _dense([], parts), parts)
+        tables = _compiled(*encode(short, instances, fails, parts), None, parts)
     else:
         instances = [Instances.of(RuleSet(), parts)] * len(controllers)
         known = [each for each in controllers if not isinstance(each, Machine)]
         dense = _dense([_exact(each, parts) for each in known], parts)
-        tables = _compiled(_nothing_but(instances, fails, parts), dense, parts)
+        tables = _compiled(_nothing_but(instances, fails, parts), None, dense, parts)
     sizes = [len(own.terms) for own in instances]
     return Controllers(
         tables,
@@ -131,7 +132,7 @@ def _of_machines(
         Instances((*own.terms, *own.terms[:1] * (most - len(own.terms))), parts)
         for own in instances
     ]
-    return padded, _compiled(_nothing_but(padded, fails, parts), dense, parts)
+    return padded, _compiled(_nothing_but(padded, fails, parts), None, dense, parts)
 
 
 def _exact(controller: RuleSet | ControlTable, parts: Parts) -> ControlTable:
@@ -155,8 +156,7 @@ def _nothing_but(instances: Sequence[Instances], fails: Sequence[float], parts: 
         instances=[len(own.terms) for own in instances],
         restarting=[own.restarting for own in instances],
         changes=np.zeros((0, 5), np.int64), chances=np.zeros(0),
-        accepted=np.zeros((0, len(parts.sensors)), np.uint64), drawn=[],
-        holding=np.zeros((0, len(parts.sensors), MOST_VALUES)),
+        accepted=np.zeros((0, len(parts.sensors)), np.uint64),
     )  # fmt: skip
 
 
@@ -181,9 +181,6 @@ def _dense(tables: Sequence[ControlTable], parts: Parts) -> npt.NDArray[np.float
                 f"tables[{number}]: expected one over all that {parts.name} can tell apart, got "
                 "one over less: give the rule set itself"
             )
-    behaviours = len(parts.behaviours)
-    if not tables:
-        return np.zeros((0, parts.codes, behaviours, 2 * behaviours * parts.states))
     return np.stack([table.probabilities[_situations(table.space, parts)] for table in tables])
 
 
@@ -206,12 +203,17 @@ def _situations(space: Space, parts: Parts) -> npt.NDArray[np.int64]:
     return np.asarray(rows + state[:, None], dtype=np.int64)
 
 
-def _compiled(encoded: Encoded, dense: npt.NDArray[np.float64], parts: Parts) -> Tables:
+def _compiled(
+    encoded: Encoded,
+    by_chance: ByChance | None,
+    dense: npt.NDArray[np.float64] | None,
+    parts: Parts,
+) -> Tables:
     """Run the kernel, with more room until all tables are there."""
     number = len(encoded.rule_ends)
     tables = _empty(number, parts.codes)
     room = _room()
-    done = compile_tables(encoded, dense, room, tables, 0)
+    done = compile_tables(encoded, by_chance, dense, room, tables, 0)
     while 0 <= done < number:
         tables = tables._replace(
             **{
@@ -220,7 +222,7 @@ def _compiled(encoded: Encoded, dense: npt.NDArray[np.float64], parts: Parts) ->
                 if name in ("rows", "thresholds", "outcomes")
             }
         )
-        done = compile_tables(encoded, dense, room, tables, done)
+        done = compile_tables(encoded, by_chance, dense, room, tables, done)
     if done < 0:
         raise ValueError(
             f"rule set {-1 - done}: its control table is too large: expected at most {MOST_RULES} "

@@ -34,7 +34,7 @@ def _distinct(room: Any, values: Any, first: int, end: int, codes: int, half: in
 
 
 @called
-def classify(encoded: Any, room: Any) -> int:
+def classify(encoded: Any, by_chance: Any, room: Any) -> int:
     """The class of each code, by which rules may act; how many classes there are.
 
     The readings are taken in two halves, so that only their distinct sets of rules are compared.
@@ -55,7 +55,7 @@ def classify(encoded: Any, room: Any) -> int:
     for high in range(highs):
         for low in range(lows):
             signature = room.signatures[0, low] & room.signatures[1, high]
-            for reading in range(readings if len(encoded.holding) else 0):
+            for reading in range(0 if by_chance is None else readings):
                 if not signature & room.drawing[reading]:
                     signature |= room.cell_bits[reading]
             at = 0
@@ -74,7 +74,7 @@ def classify(encoded: Any, room: Any) -> int:
 
 
 @called
-def let_through(encoded: Any, room: Any, number: int) -> int:
+def let_through(encoded: Any, by_chance: Any, room: Any, number: int) -> int:
     """Which rules each value of each reading lets through; the mask of the known bits.
 
     The bits of a register that the rules change and a sensor reads are rules like any other here:
@@ -105,13 +105,15 @@ def let_through(encoded: Any, room: Any, number: int) -> int:
                 if not (value >> encoded.known_shift[bit]) & 1:
                     room.class_key[reading, value] ^= _ONE << np.uint64(extra)
             extra += 1
-    if len(encoded.holding):
-        extra = _divide(encoded, room, first_rule, rules, extra)
+    if by_chance is not None:
+        extra = _divide(encoded, by_chance, room, first_rule, rules, extra)
     return known if extra <= MOST_RULES else -1
 
 
 @called
-def _divide(encoded: Any, room: Any, first_rule: int, rules: int, extra: int) -> int:
+def _divide(
+    encoded: Any, by_chance: Any, room: Any, first_rule: int, rules: int, extra: int
+) -> int:
     """Number the cells of each reading: values for which no rule has another chance to act.
 
     The bits of a cell's number stand behind those of the rules, from `extra` on.
@@ -125,7 +127,7 @@ def _divide(encoded: Any, room: Any, first_rule: int, rules: int, extra: int) ->
         for value in range(encoded.values[reading]):
             cell = value
             for other in range(value):
-                if cell == value and _is_alike(encoded, first_rule, rules, reading, value, other):
+                if cell == value and _is_alike(by_chance, first_rule, rules, reading, value, other):
                     cell = other
             room.cell[value] = room.cell[cell] if cell < value else cells
             cells += cell == value
@@ -141,32 +143,32 @@ def _divide(encoded: Any, room: Any, first_rule: int, rules: int, extra: int) ->
                 if not (room.cell[value] >> bit) & 1:
                     room.class_key[reading, value] ^= mask
         for rule in range(rules if bits else 0):
-            if not _is_even(encoded, first_rule + rule, reading):
+            if not _is_even(encoded, by_chance, first_rule + rule, reading):
                 room.drawing[reading] |= _ONE << np.uint64(rule)
         extra += bits
     return extra
 
 
 @called
-def _is_even(encoded: Any, rule: int, reading: int) -> bool:
+def _is_even(encoded: Any, by_chance: Any, rule: int, reading: int) -> bool:
     """Whether a rule acts by the same chance with all values of a reading."""
-    row = encoded.drawn[rule]
+    row = by_chance.rows[rule]
     if row >= 0:
         for value in range(1, encoded.values[reading]):
-            if encoded.holding[row, reading, value] != encoded.holding[row, reading, 0]:
+            if by_chance.holding[row, reading, value] != by_chance.holding[row, reading, 0]:
                 return False
     return True
 
 
 @called
 def _is_alike(
-    encoded: Any, first_rule: int, rules: int, reading: int, value: int, other: int
+    by_chance: Any, first_rule: int, rules: int, reading: int, value: int, other: int
 ) -> bool:
     """Whether each rule acts by the same chance with two values of a reading."""
     for rule in range(first_rule, first_rule + rules):
-        row = encoded.drawn[rule]
+        row = by_chance.rows[rule]
         if row < 0:
             continue
-        if encoded.holding[row, reading, value] != encoded.holding[row, reading, other]:
+        if by_chance.holding[row, reading, value] != by_chance.holding[row, reading, other]:
             return False
     return True

@@ -45,12 +45,20 @@ class _Part(_Library):  # type: ignore[misc]
 class _Whole(_Library):  # type: ignore[misc]
     """The code of a kernel, with all that it calls."""
 
-    def add_linking_library(self, library: Any) -> None:
-        """Link a function's code and, as it does not hold it, that of all that it calls."""
-        if library not in self._linking_libraries:
-            super().add_linking_library(library)
-            for each in library.parts if isinstance(library, _Part) else ():
-                self.add_linking_library(each)
+    def finalize(self) -> None:
+        """Link what calls before what is called: LLVM leaves out what nobody asked for yet."""
+        called: dict[Any, None] = {}
+
+        def add(library: Any) -> None:
+            if library not in called:
+                for part in library.parts if isinstance(library, _Part) else ():
+                    add(part)
+                called[library] = None
+
+        for each in self._linking_libraries:
+            add(each)
+        self._linking_libraries = [*reversed(called)]
+        super().finalize()
 
 
 class _Typing:

@@ -120,19 +120,19 @@ def without_zeros(keys: Any, shares: Any, length: int) -> Any:
 
 
 @called
-def _chance(encoded: Any, rule: int, code: int) -> float:
+def _chance(encoded: Any, by_chance: Any, rule: int, code: int) -> float:
     """How probably a rule's preconditions hold, of which those that are true or false do."""
-    row, chance = encoded.drawn[rule], 1.0
+    row, chance = by_chance.rows[rule], 1.0
     if row >= 0:
         for reading in range(len(encoded.values)):
-            chance *= encoded.holding[row, reading, code % encoded.values[reading]]
+            chance *= by_chance.holding[row, reading, code % encoded.values[reading]]
             code //= encoded.values[reading]
     return chance
 
 
 @called
-def decide(encoded: Any, room: Any, number: int, row: int, behaviour: int, signature: Any,
-            start: int, known: int) -> bool:  # fmt: skip
+def decide(encoded: Any, by_chance: Any, room: Any, number: int, row: int, behaviour: int,
+            signature: Any, start: int, known: int) -> bool:  # fmt: skip
     """Outcomes of one class and behaviour; False if they are too many."""
     first_rule = encoded.rule_ends[number - 1] if number else 0
     keys, shares = room.keys[0, row], room.shares[0, row]
@@ -142,8 +142,10 @@ def decide(encoded: Any, room: Any, number: int, row: int, behaviour: int, signa
     for rule in range(first_rule, encoded.rule_ends[number]):
         if not (signature >> np.uint64(rule - first_rule)) & _ONE:
             continue
-        acting, waiting = 0, 0
-        chance = _chance(encoded, rule, room.code_of_class[row // ROW_BEHAVIOURS])
+        acting, waiting, chance = 0, 0, 1.0
+        if by_chance is not None:
+            code = room.code_of_class[row // ROW_BEHAVIOURS]
+            chance = _chance(encoded, by_chance, rule, code)
         for k in range(length):
             if (encoded.behaviours[rule] >> ((keys[k] >> 1) & 31)) & 1:
                 active_keys[acting], active[acting] = keys[k], shares[k] * chance

@@ -59,9 +59,6 @@ class Encoded(NamedTuple):
         instances: int64, shape (rule sets,), how many behaviours each has.
         restarting: int64, shape (rule sets,), mask of those that start afresh when changed to.
         accepted: uint64, shape (rules, readings), values with which a rule may act, as bits.
-        drawn: int64, shape (rules,), row of `holding` of a rule that acts by chance, else -1.
-        holding: float64, shape (rules that act by chance, readings, 64), how probably each value of
-            a reading lets the rule act; the chances of all readings multiply.
         behaviours: int64, shape (rules,), mask of the behaviours in which it may act.
         action_ends: int64, shape (rules,), where the actions of each end.
         chances: float64, shape (actions,).
@@ -78,13 +75,24 @@ class Encoded(NamedTuple):
     instances: Any
     restarting: Any
     accepted: Any
-    drawn: Any
-    holding: Any
     behaviours: Any
     action_ends: Any
     chances: Any
     targets: Any
     changes: Any
+
+
+class ByChance(NamedTuple):
+    """Preconditions that hold by chance.
+
+    Attributes:
+        rows: int64, shape (rules,), row of `holding` of a rule that acts by chance, else -1.
+        holding: float64, shape (rules that act by chance, readings, 64), how probably each value of
+            a reading lets the rule act; the chances of all readings multiply.
+    """
+
+    rows: Any
+    holding: Any
 
 
 class Tables(NamedTuple):
