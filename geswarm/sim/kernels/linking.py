@@ -57,7 +57,7 @@ class _Whole(_Library):  # type: ignore[misc]
 
         for each in self._linking_libraries:
             add(each)
-        self._linking_libraries = [*reversed(called)]
+        self._linking_libraries: list[Any] = [*reversed(called)]
         super().finalize()
 
 
