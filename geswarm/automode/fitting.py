@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import root
 
 from geswarm.automode.machine import Transition
 from geswarm.automode.modules import FIXED, FLOORS, Condition
@@ -37,6 +36,7 @@ def solved(wanted: Mapping[int, float]) -> dict[int, float]:
 
 def _of_three(q: Sequence[float]) -> list[float]:
     """Each is true and the first of those that are, with p times its share of the orders."""
+    from scipy.optimize import root  # 0.4 s, which every start would wait for
 
     def first(p: Sequence[float], at: int) -> float:
         """How often a true one is the first of those that are."""

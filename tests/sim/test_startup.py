@@ -1,3 +1,6 @@
+import subprocess
+import sys
+
 import pytest
 
 from geswarm.sim import load_scenario, startup
@@ -76,3 +79,10 @@ def test_what_a_world_needs_is_compiled_where_it_is_asked_for(tmp_path, monkeypa
     startup.warm_up(said.append, interactive=True)
     assert said == [startup.COMPILING.format(seconds=startup.SECONDS_INTERACTIVE)]
     assert startup.is_compiled(interactive=True)
+
+
+def test_starting_loads_no_library_that_few_need():
+    names = ("scipy.optimize", "scipy.stats", "plotly", "viser")
+    said = f"import sys, geswarm.sim.startup; print([n for n in {names} if n in sys.modules])"
+    run = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
