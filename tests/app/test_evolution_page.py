@@ -249,7 +249,9 @@ def test_a_damaged_run_is_told_and_nothing_else_happens(talker):
     database = Path("runs", name, "run.db")
     for suffix in ("-wal", "-shm"):
         database.with_name(f"run.db{suffix}").unlink(missing_ok=True)
-    database.write_text("damaged" * 100)
+    damaged = Path("damaged")
+    damaged.write_text("damaged" * 100)
+    damaged.replace(database)  # at once: who reads meanwhile sees the one or the other
     talker.until(lambda: talker.run(name)["phase"] == "FAILED")
     assert "no database" in talker.run(name)["problem"]
     talker.until(lambda: "no database" in talker.last("status")["problem"])
