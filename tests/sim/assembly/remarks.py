@@ -1,9 +1,13 @@
 """Prints which loops of a kernel LLVM has vectorised; run in a process of its own.
 
+Its remarks name a loop by the line where it begins, and not at all where that has been moved out
+of the loop; so the lines within loops of vectors are printed, too.
+
 python remarks.py LAYOUT [SCENARIO or ARENA]: of foraging, of a built-in scenario, or of robots in
 an arena of a kind of `arenas.KINDS`.
 """
 
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -68,3 +72,11 @@ else:
     group = np.zeros(1, dtype=records.GROUP)[0]
     kernel.run(*common, group, whole.astype(np.uint16), whole, whole, whole, *instances, 64, 0, 0)
 print("file", kernel.run.py_func.__code__.co_filename)
+(code,) = kernel.run.inspect_llvm().values()
+scope = re.search(r'^(!\d+) = distinct !DISubprogram\(name: "run"', code, re.MULTILINE)[1]
+lines = dict(
+    re.findall(rf"^(!\d+) = !DILocation\(line: (\d+), .*scope: {scope}\)$", code, re.MULTILINE)
+)
+loops = re.findall(r"^vector\.body\d*:.*?^$", code, re.MULTILINE | re.DOTALL)
+places = {lines.get(place) for loop in loops for place in re.findall(r"!dbg (!\d+)", loop)}
+print("lines", *sorted(int(line) for line in places - {None, "0"}))
