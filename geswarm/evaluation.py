@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.rules import RuleSet
 from geswarm.sim import Objective, Scenario, Simulation, Stop, evaluate
+from geswarm.sim.controllers.tables import Controller
 
 _RUNS_PER_CALL = 128  # between two reports of progress; fills the SIMD lanes of two threads
 
@@ -85,7 +85,7 @@ def shown(value: float) -> str:
 
 
 def evaluate_rule_sets(
-    rule_sets: Sequence[RuleSet],
+    rule_sets: Sequence[Controller],
     scenario: Scenario,
     runs: int = 50,
     seed: int = 0,
@@ -96,7 +96,7 @@ def evaluate_rule_sets(
     """Run every rule set `runs` times; the result does not depend on the number of workers.
 
     Args:
-        rule_sets: What to evaluate.
+        rule_sets: What to evaluate; state machines of AutoMoDe, too.
         scenario: Where.
         runs: Simulations of each.
         seed: Keys the random streams, together with the number of the run.

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from geswarm.analysis.statistics import Comparison, compare, holm
+from geswarm.automode import Runnable
 from geswarm.evaluation import Evaluation, evaluate_rule_sets
-from geswarm.rules import RuleSet
 from geswarm.sim import Scenario
 
 
@@ -48,7 +48,7 @@ class Contrast:
 
 def run_cases(
     cases: Iterable[Case],
-    rule_sets: Mapping[str, RuleSet],
+    rule_sets: Mapping[str, Runnable],
     runs: int,
     seed: int,
     workers: int | None = None,
@@ -59,7 +59,7 @@ def run_cases(
 
     Args:
         cases: What to run.
-        rule_sets: The rule sets by the names that the cases use.
+        rule_sets: Rule sets, or machines of AutoMoDe, by the names that the cases use.
         runs: Simulations of each case.
         seed: Keys the random streams, together with the number of the run.
         workers: Threads; None for one per core.

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import Any
 
 from geswarm.analysis.cases import Case, Contrast, Samples, contrasts
+from geswarm.automode import Machine, Runnable, format_controller
 from geswarm.evaluation import shown
-from geswarm.rules import RuleSet
 
 HEADINGS = ("scenario", "rules", "mean", "median", "sd", "p", "p (Holm)", "effect")
 """Of `Compared.rows`."""
@@ -31,7 +31,7 @@ class Compared:
         seed: Of their random streams.
     """
 
-    rule_sets: dict[str, RuleSet]
+    rule_sets: Mapping[str, Runnable]
     samples: Samples
     against: str
     runs: int
@@ -115,14 +115,13 @@ class Compared:
         """A page that needs nothing else: box plots, the table, and the rules."""
         from geswarm.analysis.figures import box_plots
         from geswarm.analysis.page import figure_html, page, table_html
-        from geswarm.exports import format_html
 
         figure = box_plots(self.samples)
         figure.update_layout(width=1000, height=480)
         caption = f"{self.runs} runs each, seed {self.seed}."
         tables = "\n".join(
-            f"<div><h3>{escape(name)}</h3>\n{format_html(rule_set)}</div>"
-            for name, rule_set in self.rule_sets.items()
+            f"<div><h3>{escape(name)}</h3>\n{_as_html(each)}</div>"
+            for name, each in self.rule_sets.items()
         )
         body = f"""<h1>Compared rule sets</h1>
 {figure_html(figure, "fitness", caption)}
@@ -131,3 +130,12 @@ class Compared:
 <h2>Rules</h2>
 <div class="side-by-side rules">{tables}</div>"""
         return page("GESwarm: compared rule sets", body)
+
+
+def _as_html(controller: Runnable) -> str:
+    """A table of rules, or AutoMoDe's text."""
+    from geswarm.exports import format_html
+
+    if isinstance(controller, Machine):
+        return f"<p><code>{escape(format_controller(controller))}</code></p>"
+    return format_html(controller)

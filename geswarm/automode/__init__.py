@@ -13,6 +13,7 @@ from geswarm.automode.from_rules import Expressed, from_rules
 from geswarm.automode.machine import Machine, State, Transition
 from geswarm.automode.machine_text import format_machine
 from geswarm.automode.modules import Behaviour, Condition
+from geswarm.automode.named import NamedText, Runnable, find_controllers
 from geswarm.automode.options import AutoMoDeError
 from geswarm.automode.prose import describe
 from geswarm.automode.steps import START, Situation, next_situations
@@ -40,12 +41,15 @@ __all__ = [
     "Departure",
     "Expressed",
     "Machine",
+    "NamedText",
+    "Runnable",
     "Situation",
     "State",
     "Ticked",
     "Transition",
     "Tree",
     "describe",
+    "find_controllers",
     "format_controller",
     "format_machine",
     "format_tree",

@@ -7,7 +7,7 @@ import json
 from typing import TYPE_CHECKING
 
 from geswarm.cli.arguments import (
-    RULES_HELP,
+    CONTROLLERS_HELP,
     SCENARIO_HELP,
     UsageError,
     Verbs,
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def add_compare(verbs: Verbs) -> None:
     """Add compare."""
     compare = verbs.add_parser("compare", help="compare rule sets in several scenarios")
-    compare.add_argument("rules", nargs="+", metavar="RULES", help=RULES_HELP)
+    compare.add_argument("rules", nargs="+", metavar="RULES", help=CONTROLLERS_HELP)
     compare.add_argument("--scenario", nargs="+", action="extend", metavar="S", help=SCENARIO_HELP)
     compare.add_argument("--html", metavar="FILE", help="write a page with box plots")
     add_simulation_options(compare)
@@ -33,7 +33,8 @@ def add_compare(verbs: Verbs) -> None:
 def _compare(options: argparse.Namespace) -> int:
     from geswarm.analysis.cases import Case, run_cases
     from geswarm.analysis.compared import Compared
-    from geswarm.rules import RuleSetError, find_rule_set
+    from geswarm.automode import AutoMoDeError, find_controllers
+    from geswarm.rules import RuleSetError
     from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
 
     names = options.scenario or ["paper"]
@@ -42,13 +43,13 @@ def _compare(options: argparse.Namespace) -> int:
             raise UsageError(f"{what}: expected each one once, got {twice[0]} twice")
     try:
         scenarios = [load_scenario(name).with_changes(name=name) for name in names]
-        found = {name: find_rule_set(name) for name in options.rules}
+        found = find_controllers(options.rules)
         read = [
-            {name: one.read(vocabulary_of(each), each.name) for name, one in found.items()}
+            dict(pair for one in found for pair in one.read(vocabulary_of(each), each.name).items())
             for each in scenarios
         ]
         rule_sets = read[0]  # a rule set is the same in each vocabulary that has its words
-    except (RuleSetError, ScenarioError) as error:
+    except (RuleSetError, AutoMoDeError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     if options.html is not None:
         require_writable(options.html)
@@ -63,7 +64,7 @@ def _compare(options: argparse.Namespace) -> int:
             options.workers,
             on_progress=on_progress,
         )
-    compared = Compared(rule_sets, samples, options.rules[0], options.runs, options.seed)
+    compared = Compared(rule_sets, samples, next(iter(rule_sets)), options.runs, options.seed)
     try:
         if options.json:
             print(json.dumps(compared.document()))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from geswarm.cli.arguments import (
-    RULES_HELP,
+    CONTROLLERS_HELP,
     SCENARIO_HELP,
     UsageError,
     Verbs,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def add_experiment_verbs(verbs: Verbs) -> None:
     """Add evaluate and bench."""
     evaluate = verbs.add_parser("evaluate", help="run rule sets in a scenario and compare them")
-    evaluate.add_argument("rules", nargs="+", metavar="RULES", help=RULES_HELP)
+    evaluate.add_argument("rules", nargs="+", metavar="RULES", help=CONTROLLERS_HELP)
     evaluate.add_argument("--scenario", default="paper", metavar="S", help=SCENARIO_HELP)
     add_simulation_options(evaluate)
     evaluate.set_defaults(command=_evaluate)
@@ -41,26 +41,32 @@ def add_experiment_verbs(verbs: Verbs) -> None:
 
 def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.analysis import compare
+    from geswarm.automode import AutoMoDeError, find_controllers
     from geswarm.evaluation import evaluate_rule_sets
-    from geswarm.rules import RuleSetError, load_rule_set
+    from geswarm.rules import RuleSetError
     from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
 
     try:
         scenario = load_scenario(options.scenario)
         known = vocabulary_of(scenario)
-        rule_sets = [load_rule_set(each, known, options.scenario) for each in options.rules]
-    except (RuleSetError, ScenarioError) as error:
+        found = [
+            pair
+            for one in find_controllers(options.rules)
+            for pair in one.read(known, options.scenario).items()
+        ]
+    except (RuleSetError, AutoMoDeError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     compile_first("geswarm: stopped", scenario)
     with progress_bar() as on_progress:
         evaluations = evaluate_rule_sets(
-            rule_sets,
+            [each for _, each in found],
             scenario,
             options.runs,
             options.seed,
             options.workers,
             on_progress=on_progress,
         )
+    names = [name for name, _ in found]
     pairs = [
         (a, b, compare(evaluations[a].gains, evaluations[b].gains))
         for a in range(len(evaluations))
@@ -74,12 +80,12 @@ def _evaluate(options: argparse.Namespace) -> int:
             "objective": scenario.objective.document(),
             "results": [
                 {"rules": name, **evaluation.summary()}
-                for name, evaluation in zip(options.rules, evaluations, strict=True)
+                for name, evaluation in zip(names, evaluations, strict=True)
             ],
             "comparisons": [
                 {
-                    "a": options.rules[a],
-                    "b": options.rules[b],
+                    "a": names[a],
+                    "b": names[b],
                     "p_value": comparison.p_value,
                     "effect": comparison.effect,
                 }
@@ -88,12 +94,13 @@ def _evaluate(options: argparse.Namespace) -> int:
         }
         print(json.dumps(document))
     else:
-        _print_evaluations(options, evaluations, pairs)
+        _print_evaluations(options, names, evaluations, pairs)
     return 0
 
 
 def _print_evaluations(
     options: argparse.Namespace,
+    names: Sequence[str],
     evaluations: Sequence[Evaluation],
     pairs: Sequence[tuple[int, int, Comparison]],
 ) -> None:
@@ -104,10 +111,7 @@ def _print_evaluations(
     objective = evaluations[0].objective
     title = f"{objective.label}, scenario {options.scenario}, {options.runs} runs each"
     figures = [evaluation.figures() for evaluation in evaluations]
-    rows = [
-        [name, *map(shown, found.values())]
-        for name, found in zip(options.rules, figures, strict=True)
-    ]
+    rows = [[name, *map(shown, found.values())] for name, found in zip(names, figures, strict=True)]
     print_table(title, ["rules"], [name.replace("_mean", " (mean)") for name in figures[0]], rows)
     console = Console(markup=False, emoji=False)
     for a, b, comparison in pairs:
@@ -115,7 +119,7 @@ def _print_evaluations(
         if effect < 0.5:
             ahead, behind, effect = b, a, 1 - effect
         console.print(
-            f"{options.rules[ahead]} beats {options.rules[behind]} in {effect:.0%} of pairs of runs"
+            f"{names[ahead]} beats {names[behind]} in {effect:.0%} of pairs of runs"
             f" (Mann-Whitney, two-sided: p = {comparison.p_value:.2g})",
             soft_wrap=True,
         )

@@ -23,6 +23,9 @@ from geswarm.rules.yaml_form import format_yaml, parse_yaml
 
 _PRESETS = Path(__file__).parent / "presets"
 _LOOKS_LIKE_YAML = re.compile(r"^\s*(schema|name|scenario|comment|origin|rules)\s*:", re.MULTILINE)
+_LOOKS_LIKE_AUTOMODE = re.compile(
+    r"^[^#\n]*--(fsm-config|bt-config|nstates|nroot)(?![\w-])", re.MULTILINE
+)
 
 FORMATS: dict[str, Callable[[RuleSet], str]] = {
     "yaml": format_yaml,
@@ -30,6 +33,11 @@ FORMATS: dict[str, Callable[[RuleSet], str]] = {
     "json": format_json,
 }
 """The forms that carry a whole rule set: `read_rule_set` reads each of them back."""
+
+_AUTOMODE = (
+    "expected a rule set, got a controller of AutoMoDe; "
+    "`geswarm import FILE --from automode -o RULES` writes it as rules"
+)
 
 
 class RuleSetNotFoundError(RuleSetError):
@@ -157,6 +165,8 @@ def read_rule_set(
     text = tidy(text)
     if message := too_long(text):
         raise RuleSetError([Finding(Place(source), message)])
+    if is_automode(text):
+        raise RuleSetError([Finding(Place(source), _AUTOMODE)])
     if source.endswith(".json") or text.lstrip().startswith("{"):
         parse = parse_json
     elif source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text):
@@ -174,6 +184,11 @@ def read_rule_set(
         raise RuleSetError(found, error.scenario) from error
     require_size(rule_set, source)
     return rule_set
+
+
+def is_automode(text: str) -> bool:
+    """Whether a text is one of AutoMoDe's controllers rather than a rule set."""
+    return _LOOKS_LIKE_AUTOMODE.search(text) is not None
 
 
 def _foreign(

@@ -15,6 +15,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from geswarm.automode import Machine
 from geswarm.rules.findings import RuleSetError
 from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
@@ -80,7 +81,7 @@ def evaluate(
     """Run simulations; each result depends on its table, scenario and numbers alone.
 
     Args:
-        tables: Rule sets, or their control tables.
+        tables: Rule sets, their control tables, or state machines of AutoMoDe.
         scenario: The same for all simulations.
         simulations: (table, seed, individual, replicate) each.
         workers: Number of threads; None is one per available core.
@@ -97,17 +98,41 @@ def evaluate(
     todo = _checked(simulations, len(tables))
     parts = parts_of(scenario)
     values = np.zeros((len(todo), len(parts.measures)))
-    if len(todo):
-        controllers = compile_controllers(tables, fails(scenario, parts), parts)
-        together = runs_side_by_side(scenario)
-        run_share = _run_side_by_side if together else _run_one_by_one
-
-        def run(share: slice) -> None:
-            run_share(controllers, scenario, todo[share], values[share], stop)
-
-        _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
+    for alike in _alike(tables):
+        here = np.isin(todo[:, 0], alike)
+        own = todo[here]
+        own[:, 0] = np.searchsorted(alike, own[:, 0])
+        if len(own):
+            values[here] = _run([tables[at] for at in alike], scenario, own, workers, stop)
     measures = {each.name: values[:, at].copy() for at, each in enumerate(parts.measures)}
     return BatchResult(fitness_of(scenario, measures), measures)
+
+
+def _alike(tables: Sequence[Controller]) -> list[list[int]]:
+    """The numbers of tables that can be compiled together: state machines apart from rules."""
+    machines = [at for at, each in enumerate(tables) if isinstance(each, Machine)]
+    return [[at for at in range(len(tables)) if at not in set(machines)], machines]
+
+
+def _run(
+    tables: Sequence[Controller],
+    scenario: Scenario,
+    todo: Simulations,
+    workers: int,
+    stop: Stop | None,
+) -> Values:
+    """What each simulation counts, shape (simulations, measures)."""
+    parts = parts_of(scenario)
+    values = np.zeros((len(todo), len(parts.measures)))
+    controllers = compile_controllers(tables, fails(scenario, parts), parts)
+    together = runs_side_by_side(scenario)
+    run_share = _run_side_by_side if together else _run_one_by_one
+
+    def run(share: slice) -> None:
+        run_share(controllers, scenario, todo[share], values[share], stop)
+
+    _run_all(run, _shares(len(todo), workers) if together else _ones(len(todo)), workers)
+    return values
 
 
 def can_run(rule_set: RuleSet, scenario: Scenario) -> bool:
