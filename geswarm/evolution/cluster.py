@@ -122,7 +122,7 @@ def _watch(
     """Say what keeps the work from being done: soon, when it changes, and again now and then."""
     said, again, able = "", 0.0, 0
     while not ended.wait(_LOOK_SECONDS):
-        if not executor.is_waiting:
+        if not executor.is_waiting and not said:
             continue
         before = able
         try:
@@ -131,12 +131,14 @@ def _watch(
             problem = f"the scheduler at {address} does not answer"
         else:
             able = sum(worker.able for worker in workers)
-            problem = "" if able else _why_idle(workers, bool(before) or "left" in said, address)
+            held_up = executor.is_waiting and not able
+            some_before = bool(before) or "left" in said
+            problem = _why_idle(workers, some_before, address) if held_up else ""
         now = time.monotonic()
         if problem and (problem != said or now > again) and not ended.is_set():
             say(problem)
             again = now + _AGAIN_SECONDS
-        if said and not problem:
+        if said and not problem and able:
             say(f"{_count(able)} at {address}, going on")
         said = problem
 
