@@ -35,6 +35,7 @@ _PAGES = {
     "own-terms": "Terms of one's own",
     "missions": "Missions of the field",
     "automode": "For AutoMoDe users",
+    "epuck-agreement": "E-pucks here and there",
     "commands": "Commands in detail",
 }
 """In the order in which they are read."""

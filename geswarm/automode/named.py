@@ -11,7 +11,7 @@ from geswarm.automode.machine import Machine
 from geswarm.automode.options import AutoMoDeError
 from geswarm.automode.text import Controller, read_controllers
 from geswarm.rules.findings import Finding, Place
-from geswarm.rules.library import RuleSetText, find_rule_set, is_automode
+from geswarm.rules.library import RuleSetText, find_rule_set, form_of
 from geswarm.rules.model import RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
@@ -37,7 +37,7 @@ class NamedText:
             AutoMoDeError: It is no controller, or none that runs in this scenario.
         """
         text, source = self.found.text, self.found.source
-        if not is_automode(text):
+        if form_of(text, source) != "automode":
             return {self.name: self.found.read(vocabulary, offered_by)}
         controllers = read_controllers(text, source)
         several = len(controllers) > 1

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
+from typing import Literal, TypeAlias
 
 from geswarm.drafts import draft_of
 from geswarm.plain_text import NotTextError, read_file, read_stream, tidy
@@ -26,6 +27,9 @@ _LOOKS_LIKE_YAML = re.compile(r"^\s*(schema|name|scenario|comment|origin|rules)\
 _LOOKS_LIKE_AUTOMODE = re.compile(
     r"^[^#\n]*--(fsm-config|bt-config|nstates|nroot)(?![\w-])", re.MULTILINE
 )
+
+Form: TypeAlias = Literal["yaml", "text", "json", "automode"]
+_PARSERS = {"yaml": parse_yaml, "text": parse_text, "json": parse_json}
 
 FORMATS: dict[str, Callable[[RuleSet], str]] = {
     "yaml": format_yaml,
@@ -165,16 +169,11 @@ def read_rule_set(
     text = tidy(text)
     if message := too_long(text):
         raise RuleSetError([Finding(Place(source), message)])
-    if is_automode(text):
+    form = form_of(text, source)
+    if form == "automode":
         raise RuleSetError([Finding(Place(source), _AUTOMODE)])
-    if source.endswith(".json") or text.lstrip().startswith("{"):
-        parse = parse_json
-    elif source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text):
-        parse = parse_yaml
-    else:
-        parse = parse_text
     try:
-        rule_set = parse(text, source, vocabulary)
+        rule_set = _PARSERS[form](text, source, vocabulary)
     except RuleSetError as error:
         if not error.scenario or error.scenario == offered_by or vocabulary is ANYTHING:
             raise
@@ -186,9 +185,13 @@ def read_rule_set(
     return rule_set
 
 
-def is_automode(text: str) -> bool:
-    """Whether a text is one of AutoMoDe's controllers rather than a rule set."""
-    return _LOOKS_LIKE_AUTOMODE.search(text) is not None
+def form_of(text: str, source: str = "") -> Form:
+    """In which form something is that a user names; a controller of AutoMoDe is no rule set."""
+    if source.endswith(".json") or text.lstrip().startswith("{"):
+        return "json"
+    if source.endswith((".yaml", ".yml")) or _LOOKS_LIKE_YAML.search(text):
+        return "yaml"
+    return "automode" if _LOOKS_LIKE_AUTOMODE.search(text) else "text"
 
 
 def _foreign(

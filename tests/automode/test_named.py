@@ -48,6 +48,13 @@ def test_rules_are_rules(file):
     assert isinstance(read(file(commented)).popitem()[1], RuleSet)
 
 
+def test_rules_that_come_from_a_machine_are_rules(file, tmp_path):
+    rules = tmp_path / "two.yaml"
+    assert main(["import", file(EXPLORES), "--from", "automode", "-o", str(rules)]) == 0
+    assert "--nstates" in rules.read_text()  # where they come from
+    assert isinstance(read(str(rules))[str(rules)], RuleSet)
+
+
 def test_what_does_not_run_here_is_told_with_its_place(file):
     name = file(EXPLORES, STOPS)
     with pytest.raises(AutoMoDeError) as error:

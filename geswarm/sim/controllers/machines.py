@@ -45,6 +45,15 @@ def _order(number: int, parts: Parts) -> list[int]:
     return order
 
 
+def states_of(machine: Machine, parts: Parts) -> npt.NDArray[np.int64]:
+    """The state that each instance stands for, int64, shape (instances,)."""
+    order = _order(len(instances_of(machine, parts)), parts)
+    states = np.zeros(len(order), dtype=np.int64)
+    for at in range(2 * len(machine.states)):
+        states[order[at]] = at // 2
+    return states
+
+
 def outcomes_of(machine: Machine, parts: Parts, number: int) -> npt.NDArray[np.float64]:
     """Outcome distributions of each code and instance, see `kernels.tabulate`.
 
