@@ -86,11 +86,12 @@ def test_an_evolution_goes_on_exactly_without_its_dashboard(tmp_path, short, num
     assert outcome(directory) == undisturbed(directory, tmp_path / "whole")
 
 
-def test_a_full_disk_is_said_and_the_arena_goes_on(tmp_path, monkeypatch):
+def test_a_full_disk_is_said_and_the_arena_goes_on(tmp_path, monkeypatch, short):
     with small_disk(tmp_path / "disk") as disk:
         monkeypatch.chdir(disk)
         try:
-            with started("--port", "0", XDG_STATE_HOME=str(disk)) as process:
+            there = ("--port", "0", "--scenario", short)
+            with started(*there, XDG_STATE_HOME=str(disk)) as process:
                 at = address(process)
                 with open_page(at, "evolution") as page, open_page(at, "rules") as table:
                     run = on_a_full_disk(page, table, disk)

@@ -27,6 +27,7 @@ EVERY_TERM = [
 def shortest(holds, free):
     """(terms, literals) of the shortest expression, by trying them all."""
     fitting = [t for t in EVERY_TERM if points_where(Condition((t,))) <= holds | free]
+    fitting = [t for t in fitting if not any(set(other) < set(t) for other in fitting)]  # no need
     sizes = chain.from_iterable(combinations(fitting, size) for size in range(5))
     found = [t for t in sizes if holds <= points_where(Condition(t))]
     fewest = min(map(len, found))

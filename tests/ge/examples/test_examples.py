@@ -26,6 +26,7 @@ def test_formulas_are_joined_as_the_grammar_says():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_ant_finds_all_food():
     best, generations = ant.solve(seed=0)
     assert best.fitness == 89
