@@ -61,8 +61,7 @@ def situations_of(rule_set: RuleSet, vocabulary: Vocabulary) -> Situations:
     findings = list(_unknown(rule_set))
     rules = rule_set.active_rules
     if not findings:
-        actions = [action for rule in rules for action in rule.actions]
-        if any(isinstance(each, StateChange) for each in actions):
+        if any(each for rule in rules for each in _mentioning_state(rule)):
             found = _of_register(rules, vocabulary)
         else:
             found = _of_behaviours(rules, Term(vocabulary.initial_behaviour))
@@ -188,6 +187,14 @@ def _entering_problem(
         then = after_rules(rules, here, lambda _: 0.5)
         if any(each.behaviour != here.behaviour for each in then):
             return f"{REGISTER}: expected {here.state} to keep its behaviour"
+        for each in then:
+            if each not in inside and (
+                not each.state.startswith("enter") or each.state == f"enter{number}"
+            ):
+                return (
+                    f"{REGISTER}: expected {here.state} to stay in{number} or to become the "
+                    f"enter of another state, got {each.state}"
+                )
         if not _as_likely([then.get(each, 0.0) for each in inside]):
             return f"{REGISTER}: expected {here.state} to keep or change its letter by chance"
     if not _as_likely(list(after.values())):

@@ -170,7 +170,7 @@ def test_state_that_is_used_in_another_way_is_refused():
         "STATE: expected in0 to keep its behaviour"
     ]
     assert problems(enters + "rule if STATE == in0 do p = 0.5, STATE = in1", words) == [
-        "STATE: expected enter1 to start one behaviour and become in1"
+        "STATE: expected in0 to stay in0 or to become the enter of another state, got in1"
     ]
     other = vocabulary(("red", "green"))
     assert problems("rule do p = 0.5, STATE = green", other) == [
