@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import threading
+from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from pathlib import Path
@@ -19,12 +20,15 @@ from geswarm.evolution import (
     ClusterError,
     EvaluationError,
     EvolutionRun,
+    InjectionError,
     RunConfig,
     cluster_executor,
+    nearest_offered,
     preset_for,
 )
 from geswarm.ge import GenerationRecord, SettingsError, StoreError, fall_in_words
-from geswarm.sim import ScenarioError, load_scenario
+from geswarm.rules import RuleSetError, find_rule_set
+from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
 
 from .run_directory import new_run_directory
 
@@ -43,8 +47,10 @@ def evolve_headless(options: argparse.Namespace) -> int:
             executor = None
             if options.cluster is not None:
                 executor = resources.enter_context(cluster_executor(options.cluster, say))
-            run = _open_run(options)
-        except (ClusterError, ScenarioError, SettingsError, StoreError) as error:
+            run = _open_run(options, say)
+        except InjectionError as error:
+            raise UsageError(f"--start-from {options.start_from}: {error}") from error
+        except (ClusterError, ScenarioError, SettingsError, StoreError, RuleSetError) as error:
             raise UsageError(str(error)) from error
         resources.callback(run.close)
         return _evolve_and_report(run, options, executor, console)
@@ -77,7 +83,7 @@ def _evolve_and_report(
     return 0
 
 
-def _open_run(options: argparse.Namespace) -> EvolutionRun:
+def _open_run(options: argparse.Namespace, say: Callable[[str], None]) -> EvolutionRun:
     if options.resume is not None:
         return EvolutionRun.resume(options.resume, options.generations, with_code=True)
     given = {
@@ -89,8 +95,16 @@ def _open_run(options: argparse.Namespace) -> EvolutionRun:
     config = RunConfig(
         scenario, preset_for(scenario, options.preset or "paper", **given), options.seed or 0
     )
+    first = None
+    if options.start_from is not None:
+        words, named = vocabulary_of(scenario), options.scenario or "paper"
+        written = find_rule_set(options.start_from).read(words, named)
+        first, changed = nearest_offered(written, words)
+        if changed:
+            terms = ", ".join(f"{each} as {near}" for each, near in changed.items())
+            say(f"Starts from {options.start_from} with the nearest numbers that evolve: {terms}")
     directory = Path(options.out) if options.out is not None else new_run_directory(config)
-    return EvolutionRun.create(config, directory)
+    return EvolutionRun.create(config, directory, first)
 
 
 def _how_to_resume(run: EvolutionRun) -> str:

@@ -17,7 +17,9 @@ from geswarm.cli import (
 )
 
 _DASHBOARD_ONLY = ("host", "port", "allow_host", "rules")
-_SET_BY_THE_RUN = ("scenario", "preset", "population", "evaluations", "seed", "out")
+_SET_BY_THE_RUN = (
+    "scenario", "preset", "population", "evaluations", "seed", "start_from", "out",
+)  # fmt: skip
 _HEADLESS_ONLY = (*_SET_BY_THE_RUN[1:], "generations", "resume", "cluster")
 
 
@@ -66,6 +68,9 @@ def _parser() -> argparse.ArgumentParser:
         help="runs per individual; default: 3, in modern 1",
     )
     headless.add_argument("--seed", type=non_negative_int, metavar="N", help="default: 0")
+    headless.add_argument(
+        "--start-from", metavar="R", help="rules that enter the first generation, named as --rules"
+    )
     headless.add_argument("--out", metavar="DIR", help="run directory; default: a new one in runs/")
     headless.add_argument(
         "--resume",

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from geswarm.app.main import main as evolve
 from geswarm.cli import main
+from geswarm.sim import load_scenario
 from tests.automode.machines import AAC, FLEE
 from tests.automode.test_as_rules import too_many_orders
 
@@ -79,6 +81,40 @@ def test_there_and_back_in_a_scenario(capsys, folder):
     capsys.readouterr()
     assert main(["export", "two.yaml", "--to", "automode", "--strict"]) == 0
     assert capsys.readouterr().out == f"--fsm-config {TWO}\n"
+
+
+def test_the_scenario_that_the_rules_need_is_written(capsys, folder):
+    both = ("--write-scenario", "mine.yaml", "-o", "two.yaml")
+    assert run(capsys, "two.txt", "--scenario", "epuck-aac", *both)[0] == 0
+    scenario = load_scenario("mine.yaml")
+    assert scenario.registers == ("STATE(enter0, in0, enter1, in1)",)
+    assert {0.02, 0.5, 1.0} <= set(scenario.probabilities)
+    assert scenario.robots == load_scenario("epuck-aac").robots
+    assert "scenario: mine\n" in (folder / "two.yaml").read_text()
+    assert main(["check", "two.yaml", "--scenario", "mine.yaml"]) == 0
+    capsys.readouterr()
+    back = ["export", "two.yaml", "--to", "automode", "--strict", "--scenario", "mine.yaml"]
+    assert main(back) == 0
+    assert capsys.readouterr().out == f"--fsm-config {TWO}\n"
+
+
+def test_the_scenario_may_extend_a_file_elsewhere(capsys, folder):
+    (folder / "base").mkdir()
+    (folder / "base" / "short.yaml").write_text("extends: epuck-aac\nduration: 5\n")
+    (folder / "here").mkdir()
+    both = ("--write-scenario", "here/mine.yaml", "-o", "two.yaml")
+    assert run(capsys, "two.txt", "--scenario", "base/short.yaml", *both)[0] == 0
+    assert load_scenario("here/mine.yaml").duration == 5.0
+
+
+def test_a_scenario_that_lacks_more_than_the_register_is_not_written(capsys, folder):
+    both = ("--write-scenario", "mine.yaml", "-o", "two.yaml")
+    status, out, err = run(capsys, "two.txt", "--scenario", "xor", *both)
+    assert (status, out, err) == (2, "", "geswarm: xor does not offer EXPLORATION\n")
+    status, out, err = run(capsys, "two.txt", *both)
+    assert (status, out) == (2, "")
+    assert err == "geswarm: --write-scenario: expected --scenario S and -o FILE with it\n"
+    assert not (folder / "mine.yaml").exists()
 
 
 def test_what_a_scenario_does_not_offer_is_told(capsys, folder):
@@ -158,3 +194,22 @@ def test_the_guide_is_what_happens(capsys, folder):
     (verdict,) = re.findall(r"^    (\d rules say .*)", text, re.MULTILINE)
     assert verdict in said["import aac.txt --from automode"]
     assert said["import aac.txt --from automode --as machine"] == f"--fsm-config {machine}\n"
+
+
+@pytest.mark.long
+def test_the_five_commands_of_the_guide(capsys, folder):
+    guide = Path(__file__).parent.parent / "static" / "guide" / "automode.md"
+    text = guide.read_text(encoding="utf-8")
+    (machine,) = re.findall(r"# rests\.txt\n    (.*)", text)
+    (folder / "rests.txt").write_text(machine)
+    road = text[text.index("# rests.txt") : text.index("`mine.yaml` extends")]
+    commands = re.findall(r"^    (geswarm\S*) (.*?)(?: *#.*)?$", road, re.MULTILINE)
+    assert len(commands) == 5
+    for program, arguments in commands:
+        if program == "geswarm-ui":
+            small = arguments.replace("--generations 25", "--generations 2 --population 10")
+            assert evolve(small.split()) == 0
+        else:
+            assert main(arguments.split()) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == machine
+    assert (folder / "better" / "best.yaml").exists()

@@ -78,14 +78,7 @@ class EvolutionThread:
             directory: Where it is kept.
             first: Rules that enter the first generation.
         """
-
-        def begin() -> EvolutionRun:
-            run = EvolutionRun.create(config, directory)
-            if first is not None:
-                run.inject(first)
-            return run
-
-        self._launch(begin, directory)
+        self._launch(lambda: EvolutionRun.create(config, directory, first), directory)
 
     def resume(self, directory: Path, generations: int | None = None) -> None:
         """Continue the run of a directory; any run under way is stopped first.

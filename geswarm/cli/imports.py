@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import argparse
+import json
+import os
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geswarm.cli.arguments import SCENARIO_HELP, UsageError, Verbs, positive_int
 from geswarm.cli.output import print_texts, write_files
 
 if TYPE_CHECKING:
     from geswarm.automode import Controller, Conversion
+    from geswarm.rules import RuleSet, Vocabulary
     from geswarm.sim import Scenario
 
 
@@ -34,6 +38,11 @@ def add_import(verbs: Verbs) -> None:
     reads.add_argument(
         "--scenario", metavar="S", help=f"in whose words rules are written: {SCENARIO_HELP}"
     )
+    reads.add_argument(
+        "--write-scenario",
+        metavar="FILE",
+        help="with --scenario and -o: also write a scenario that offers what the rules need",
+    )
     reads.set_defaults(command=_import)
 
 
@@ -41,6 +50,8 @@ def _import(options: argparse.Namespace) -> int:
     """Exit 1 if rules are asked for and cannot say exactly the same; nothing is written then."""
     from geswarm.automode import format_controller
 
+    if options.write_scenario is not None and (not options.scenario or not options.output):
+        raise UsageError("--write-scenario: expected --scenario S and -o FILE with it")
     controllers = _chosen(_read(options.file), options.number)
     form = options.form or ("rules" if options.output else None)
     if form == "machine":
@@ -51,6 +62,9 @@ def _import(options: argparse.Namespace) -> int:
             for departure in conversion.departures:
                 print(f"error: AutoMoDe: {departure}", file=sys.stderr)
             return 1
+        if options.write_scenario is not None:
+            write_files(_with_scenario(conversion, options))
+            return 0
         text = _yaml(conversion, options.scenario)
     else:
         _show(controllers, options)
@@ -109,17 +123,47 @@ def _yaml(conversion: Conversion, scenario: str | None) -> str:
     return format_yaml(conversion.rule_set)
 
 
+def _with_scenario(conversion: Conversion, options: argparse.Namespace) -> dict[str | None, str]:
+    """The scenario's file and that of the rules, which are in its words.
+
+    It offers their probabilities beside its own, so that evolution can start from them.
+    """
+    from geswarm.rules import format_yaml
+    from geswarm.sim import vocabulary_of
+
+    file, known = Path(options.write_scenario), _scenario(options.scenario)
+    used = {action.p for rule in conversion.rule_set.rules for action in rule.actions}
+    changes: dict[str, Any] = {"probabilities": tuple(sorted({*known.probabilities, *used}))}
+    if conversion.register:
+        others = (each for each in known.registers if not each.startswith("STATE("))
+        changes["registers"] = (*others, conversion.register)
+    rule_set = replace(conversion.rule_set, scenario=file.stem)
+    needed = known.with_changes(**changes)
+    if missing := _missing_in(rule_set, vocabulary_of(needed), options.scenario):
+        raise UsageError(missing)
+    base = options.scenario
+    if Path(base).is_file():
+        base = os.path.relpath(base, file.parent)
+    lines = [f"# {options.scenario} with what the rules of {options.file} need", f"extends: {base}"]
+    lines += [f"{name}: {json.dumps(list(values))}" for name, values in changes.items()]
+    return {options.write_scenario: "\n".join(lines) + "\n", options.output: format_yaml(rule_set)}
+
+
 def _missing(conversion: Conversion, scenario: str | None) -> str:
     """What a scenario does not offer of what the rules mention; empty if it offers everything."""
-    from geswarm.rules.names import name_errors, unknown_terms
     from geswarm.sim import vocabulary_of
 
     if scenario is None:
         return ""
-    vocabulary = vocabulary_of(_scenario(scenario))
-    if unknown := unknown_terms(conversion.rule_set, vocabulary):
+    return _missing_in(conversion.rule_set, vocabulary_of(_scenario(scenario)), scenario)
+
+
+def _missing_in(rule_set: RuleSet, vocabulary: Vocabulary, scenario: str) -> str:
+    from geswarm.rules.names import name_errors, unknown_terms
+
+    if unknown := unknown_terms(rule_set, vocabulary):
         return f"{scenario} does not offer {', '.join(unknown)}"
-    errors = dict.fromkeys(each.message for each in name_errors(conversion.rule_set, vocabulary))
+    errors = dict.fromkeys(each.message for each in name_errors(rule_set, vocabulary))
     return "\n".join(f"{scenario}: {message}" for message in errors)
 
 

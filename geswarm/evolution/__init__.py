@@ -10,7 +10,7 @@ True
 """
 
 from geswarm.evolution.cluster import ClusterError, cluster_executor
-from geswarm.evolution.composition import Composition, InjectionError
+from geswarm.evolution.composition import Composition, InjectionError, nearest_offered
 from geswarm.evolution.fitness import EvaluationError, ScenarioFitness
 from geswarm.evolution.grammar import rule_grammar
 from geswarm.evolution.population import Member, Population
@@ -29,6 +29,7 @@ __all__ = [
     "RunConfigError",
     "ScenarioFitness",
     "cluster_executor",
+    "nearest_offered",
     "preset_for",
     "rule_grammar",
     "version_remarks",

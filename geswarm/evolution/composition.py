@@ -22,7 +22,9 @@ from geswarm.rules import (
     format_text,
     parse_text,
 )
+from geswarm.rules.arguments import Argument
 from geswarm.rules.elements import format_probability
+from geswarm.rules.model import Action, BehaviourChange, Term, Value
 from geswarm.rules.reachability import reachable_situations
 from geswarm.sim import Scenario, vocabulary_of
 
@@ -88,6 +90,53 @@ class Composition:
         The control table in the situations that robots can get into, to twelve decimals.
         """
         return _behaviour(self, phenotype)
+
+
+def nearest_offered(rule_set: RuleSet, vocabulary: Vocabulary) -> tuple[RuleSet, dict[str, str]]:
+    """Rules with each number of a term as the nearest on offer, as the grammar derives them.
+
+    Args:
+        rule_set: In the words of the vocabulary.
+        vocabulary: What is on offer.
+
+    Returns:
+        The rules, and each term that is another one now with what it has become.
+    """
+    changed: dict[str, str] = {}
+
+    def near(term: Term) -> Term:
+        known = vocabulary.percepts.get(term.name) or vocabulary.behaviour_names.get(term.name)
+        declared = known.arguments if known else ()
+        arguments = tuple(map(_nearest, declared, term.arguments))
+        found = replace(term, arguments=arguments) if arguments else term
+        if found != term:
+            changed[str(term)] = str(found)
+        return found
+
+    def action_near(action: Action) -> Action:
+        if isinstance(action, BehaviourChange):
+            return replace(action, behaviour=near(action.behaviour))
+        return action
+
+    rules = tuple(
+        replace(
+            rule,
+            preconditions=tuple(
+                replace(each, percept=near(each.percept)) for each in rule.preconditions
+            ),
+            behaviours=tuple(map(near, rule.behaviours)),
+            actions=tuple(map(action_near, rule.actions)),
+        )
+        for rule in rule_set.rules
+    )
+    return replace(rule_set, rules=rules), changed
+
+
+def _nearest(argument: Argument, value: Value) -> Value:
+    if value in argument.offered or not argument.admits(value):
+        return value
+    number = argument.number(value)
+    return min(argument.offered, key=lambda each: abs(argument.number(each) - number))
 
 
 def _require_listed(p: float, rule: int, vocabulary: Vocabulary) -> None:

@@ -148,16 +148,31 @@ class EvolutionRun:
         self._requests: deque[Steering] = deque()
 
     @classmethod
-    def create(cls, config: RunConfig, directory: str | Path) -> EvolutionRun:
+    def create(
+        cls, config: RunConfig, directory: str | Path, first: RuleSet | None = None
+    ) -> EvolutionRun:
         """Begin a run in a directory that holds none.
 
+        Args:
+            config: Of the run.
+            directory: Where it is kept.
+            first: Rules that enter the first generation, on disk with the rest.
+
         Raises:
+            InjectionError: The grammar does not derive `first`; says why.
             StoreError: The directory holds a run already or cannot be written.
         """
+        composition = config.composition
+        enters = [] if first is None else [Injection(composition.phenotype(first))]
         store = RunStore.create(directory, config.to_yaml())
-        identity = config.composition.behaviour
-        grammar = config.composition.grammar
-        engine = Engine(grammar, config.settings, config.seed, identity)
+        engine = Engine(composition.grammar, config.settings, config.seed, composition.behaviour)
+        try:
+            for each in enters:
+                store.record_steering(engine.generation + 1, each)
+                each.apply(engine)
+        except StoreError:
+            store.close()
+            raise
         return cls(config, store, engine)
 
     @classmethod

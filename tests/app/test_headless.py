@@ -15,8 +15,9 @@ import pytest
 
 from geswarm.app.main import main
 from geswarm.evaluation import shown
+from geswarm.evolution import EvolutionRun, RunConfig
 from geswarm.ge import Settings
-from geswarm.rules import find_rule_set, load_rule_set
+from geswarm.rules import find_rule_set, first_difference, load_rule_set, parse_text
 from geswarm.sim import load_scenario, vocabulary_of
 
 SMALL = ["--no-ui", "--population", "8", "--evaluations", "1"]
@@ -313,3 +314,55 @@ def test_messages_speak_of_the_objective_in_its_own_sign(tmp_path, capsys):
     assert best.scenario == "away"
     rules = best.read(vocabulary_of(load_scenario(path)))
     assert rules.origin.fitness >= 0
+
+
+def test_it_starts_from_given_rules_and_resumes_so(tmp_path, quick, capsys):
+    whole, cut = tmp_path / "whole", tmp_path / "cut"
+    given = [*SMALL, *quick, "--seed", "3", "--start-from", "evo8", "--generations", "3"]
+    assert main([*given, "--out", str(whole)]) == 0
+    with closing(sqlite3.connect(whole / "run.db")) as database:
+        query = "SELECT phenotype FROM individual WHERE generation = 1"
+        first = [parse_text(text) for (text,) in database.execute(query)]
+    evo8 = load_rule_set("evo8")
+    assert sum(first_difference(each, evo8) is None for each in first) == 1
+    assert len(first) == 9  # in place of the worst
+    config = RunConfig(load_scenario(quick[1]), EvolutionRun.read(whole).config.settings, 3)
+    EvolutionRun.create(config, cut, evo8).close()  # killed before the first generation was done
+    assert main(["--no-ui", "--resume", str(cut)]) == 0
+    assert rows(cut) == rows(whole)
+
+
+def test_numbers_that_do_not_evolve_start_as_the_nearest(tmp_path, capsys):
+    scenario = tmp_path / "quick.yaml"
+    scenario.write_text("extends: aac\nduration: 2\n")
+    rules = tmp_path / "mine.rules"
+    rules.write_text("rule do p = 0.1, ATTRACTION(2.2)\nrule while ATTRACTION(2.2) do p = 1, STOP")
+    given = [
+        *SMALL,
+        "--scenario",
+        str(scenario),
+        "--generations",
+        "1",
+        "--out",
+        str(tmp_path / "r"),
+    ]
+    assert main([*given, "--start-from", str(rules)]) == 0
+    told = capsys.readouterr().err
+    assert f"Starts from {rules} with the nearest numbers that evolve: ATTRACTION(2.2) as " in told
+
+
+@pytest.mark.parametrize(
+    ("rules", "problem"),
+    [
+        ("rule do p = 0.3, RANDOM_WALK", "--start-from {}: rule 1: p = 0.3 cannot evolve"),
+        ("rule do p = 0.1, STOP", "STOP"),
+        ("rule off do p = 0.1, PHOTOTAXIS", "expected more than 0 rules switched on"),
+    ],
+)
+def test_rules_that_cannot_be_started_from_are_told(tmp_path, quick, capsys, rules, problem):
+    file, out = tmp_path / "mine.rules", tmp_path / "run"
+    file.write_text(rules)
+    given = [*SMALL, *quick, "--generations", "1", "--out", str(out), "--start-from", str(file)]
+    assert main(given) == 2
+    assert problem.format(file) in capsys.readouterr().err
+    assert not out.exists()
