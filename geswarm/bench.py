@@ -18,7 +18,7 @@ import numpy as np
 from geswarm.evolution import EvolutionRun, RunConfig, rule_grammar
 from geswarm.ge import Settings
 from geswarm.ge.mapping import CODON_LIMIT, Mapper
-from geswarm.rules import load_preset
+from geswarm.rules import load_preset, parse_text
 from geswarm.sim import (
     CONTROL_STEP,
     Scenario,
@@ -26,6 +26,7 @@ from geswarm.sim import (
     available_cores,
     evaluate,
     load_scenario,
+    vocabulary_of,
 )
 from geswarm.sim.batch import Group
 from geswarm.sim.controllers.encoding import fails
@@ -40,6 +41,8 @@ _PRESETS = ("hand-coded", "evo8")
 _REPEATS = 5
 _SWARMS = (1_000, 10_000, 100_000)
 _GENERATIONS = 12
+_EPUCK_RULES = ("rule while STOP do p = 1, EXPLORATION(5)", "epuck-aac")
+"""Robots on their own, and in the end in a crowd, which costs most."""
 
 
 def run_bench(progress: Report | None = None) -> dict[str, Any]:
@@ -56,8 +59,9 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
         one simulation that interprets the rules; scenario `paper`, nanoseconds),
         `speedup_vs_scalar`, `thread_scaling` (two threads to one, None on one core),
         `runs_per_second` (of the paper's 5000 s, all cores), `generation_seconds` (of the paper's
-        evolution), `swarm` (by size at the paper's density, one thread), and
-        `mapping_genomes_per_second` (genomes of 200 codons, one thread).
+        evolution), `swarm` (by size at the paper's density, one thread), `epucks` (milliseconds
+        per run of 20 in `epuck-aac` by rules, one thread), and `mapping_genomes_per_second`
+        (genomes of 200 codons, one thread).
     """
     report = progress or (lambda _: None)
     warm_up(report, interactive=True)
@@ -69,6 +73,9 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
     generation = _generation()
     report("large swarms")
     swarms = [_swarm(robots) for robots in _SWARMS]
+    warm_up(report, load_scenario("epuck-aac"))
+    report("e-pucks with all their noise")
+    epucks = [_epucks(rules) for rules in _EPUCK_RULES]
     report("mapping genomes")
     return {
         "ns_per_robot_step": side_by_side,
@@ -78,6 +85,7 @@ def run_bench(progress: Report | None = None) -> dict[str, Any]:
         "runs_per_second": runs,
         "generation_seconds": generation,
         "swarm": swarms,
+        "epucks": epucks,
         "mapping_genomes_per_second": _mapping(),
         "cpu": processor(),
         "numba": numba.__version__,
@@ -106,6 +114,10 @@ def format_bench(figures: dict[str, Any]) -> str:
                 f"{swarm['real_time_factor']:.0f} x real time",
             )
             for swarm in figures["swarm"]
+        ),
+        *(
+            (f"run of 20 e-pucks, {each['rules']}", f"{each['ms_per_run']:.1f} ms")
+            for each in figures["epucks"]
         ),
         ("mapping", f"{figures['mapping_genomes_per_second']:,.0f} genomes per second"),
         ("processor", figures["cpu"]),
@@ -137,6 +149,13 @@ def _cpu_seconds(work: Callable[..., object], *arguments: Any) -> float:
     before = time.thread_time()
     work(*arguments)
     return time.thread_time() - before
+
+
+def _cpu_seconds_of_all(work: Callable[[], object]) -> float:
+    """How long this process works in a call, its other threads included."""
+    before = time.process_time()
+    work()
+    return time.process_time() - before
 
 
 def _robot_steps() -> tuple[float, float]:
@@ -211,6 +230,21 @@ def _swarm(robots: int) -> dict[str, Any]:
         "ns_per_robot_step": 1e9 * seconds / (steps * robots),
         "real_time_factor": CONTROL_STEP * steps / seconds,
     }
+
+
+def _epucks(rules: str) -> dict[str, Any]:
+    """Processor time of a run of 120 s, side by side with others, in one thread."""
+    scenario = load_scenario("epuck-aac")
+    words = vocabulary_of(scenario)
+    rule_set = (parse_text if rules.startswith("rule") else load_preset)(rules, vocabulary=words)
+    simulations = [(0, 1, 0, run) for run in range(LANES)]
+
+    def run_all() -> None:
+        evaluate([rule_set], scenario, simulations, workers=1)
+
+    run_all()
+    seconds = min(_cpu_seconds_of_all(run_all) for _ in range(_REPEATS))
+    return {"rules": rules, "ms_per_run": 1e3 * seconds / len(simulations)}
 
 
 def _mapping() -> float:

@@ -12,6 +12,7 @@ KEYS = {
     "runs_per_second",
     "generation_seconds",
     "swarm",
+    "epucks",
     "mapping_genomes_per_second",
     "cpu",
     "numba",
@@ -25,8 +26,12 @@ def figures():
         patch.setattr(bench, "_REPEATS", 1)
         patch.setattr(bench, "_GENERATIONS", 2)
         patch.setattr(bench, "_SWARMS", (100, 200))
-        short = bench.load_scenario("paper").with_changes(duration=50.0)
-        patch.setattr(bench, "load_scenario", lambda _: short)
+        durations = {"paper": 50.0, "epuck-aac": 1.0}
+        short = {
+            name: bench.load_scenario(name).with_changes(duration=duration)
+            for name, duration in durations.items()
+        }
+        patch.setattr(bench, "load_scenario", short.get)
         said = []
         yield bench.run_bench(said.append), said
 
@@ -35,11 +40,13 @@ def test_keys_and_values(figures):
     measured, said = figures
     assert measured.keys() == KEYS
     assert len(said) >= 5
-    for name in KEYS - {"swarm", "cpu", "numba", "thread_scaling"}:
+    for name in KEYS - {"swarm", "epucks", "cpu", "numba", "thread_scaling"}:
         assert measured[name] > 0
     assert [set(swarm) for swarm in measured["swarm"]] == 2 * [
         {"robots", "ns_per_robot_step", "real_time_factor"}
     ]
+    assert [each["rules"] for each in measured["epucks"]] == list(bench._EPUCK_RULES)
+    assert all(each["ms_per_run"] > 0 for each in measured["epucks"])
     ratio = measured["scalar_ns_per_robot_step"] / measured["ns_per_robot_step"]
     assert measured["speedup_vs_scalar"] == pytest.approx(ratio)
 
@@ -49,7 +56,7 @@ def test_as_text_and_json(figures, monkeypatch):
     monkeypatch.setattr(bench, "run_bench", lambda _: measured)
     assert json.loads(bench.command(True, print)) == measured
     text = bench.command(False, print)
-    assert len(text.splitlines()) == 10 + len(measured["swarm"])
+    assert len(text.splitlines()) == 12 + len(measured["swarm"])
     assert measured["cpu"] in text
 
 
