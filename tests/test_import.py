@@ -98,12 +98,13 @@ def test_the_scenario_that_the_rules_need_is_written(capsys, folder):
     assert capsys.readouterr().out == f"--fsm-config {TWO}\n"
 
 
-def test_the_scenario_may_extend_a_file_elsewhere(capsys, folder):
+@pytest.mark.parametrize("name", ["short", "a: b # c", 'é "f"'])
+def test_the_scenario_may_extend_a_file_elsewhere(capsys, folder, name):
     (folder / "base").mkdir()
-    (folder / "base" / "short.yaml").write_text("extends: epuck-aac\nduration: 5\n")
+    (folder / "base" / f"{name}.yaml").write_text("extends: epuck-aac\nduration: 5\n")
     (folder / "here").mkdir()
     both = ("--write-scenario", "here/mine.yaml", "-o", "two.yaml")
-    assert run(capsys, "two.txt", "--scenario", "base/short.yaml", *both)[0] == 0
+    assert run(capsys, "two.txt", "--scenario", f"base/{name}.yaml", *both)[0] == 0
     assert load_scenario("here/mine.yaml").duration == 5.0
 
 
@@ -114,7 +115,12 @@ def test_a_scenario_that_lacks_more_than_the_register_is_not_written(capsys, fol
     status, out, err = run(capsys, "two.txt", *both)
     assert (status, out) == (2, "")
     assert err == "geswarm: --write-scenario: expected --scenario S and -o FILE with it\n"
+    twice = ("--scenario", "epuck-aac", "--write-scenario", "a.yaml", "-o", "a.yaml")
+    status, out, err = run(capsys, "two.txt", *twice)
+    assert (status, out) == (2, "")
+    assert err == "geswarm: --write-scenario and -o: expected two files, got a.yaml twice\n"
     assert not (folder / "mine.yaml").exists()
+    assert not (folder / "a.yaml").exists()
 
 
 def test_what_a_scenario_does_not_offer_is_told(capsys, folder):

@@ -52,6 +52,8 @@ def _import(options: argparse.Namespace) -> int:
 
     if options.write_scenario is not None and (not options.scenario or not options.output):
         raise UsageError("--write-scenario: expected --scenario S and -o FILE with it")
+    if options.write_scenario is not None and options.write_scenario == options.output:
+        raise UsageError(f"--write-scenario and -o: expected two files, got {options.output} twice")
     controllers = _chosen(_read(options.file), options.number)
     form = options.form or ("rules" if options.output else None)
     if form == "machine":
@@ -144,7 +146,7 @@ def _with_scenario(conversion: Conversion, options: argparse.Namespace) -> dict[
     base = options.scenario
     if Path(base).is_file():
         base = os.path.relpath(base, file.parent)
-    lines = [f"# {options.scenario} with what the rules of {options.file} need", f"extends: {base}"]
+    lines = ["# With what the rules of a machine of AutoMoDe need.", f"extends: {json.dumps(base)}"]
     lines += [f"{name}: {json.dumps(list(values))}" for name, values in changes.items()]
     return {options.write_scenario: "\n".join(lines) + "\n", options.output: format_yaml(rule_set)}
 
