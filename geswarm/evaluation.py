@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.sim import Objective, Scenario, Simulation, Stop, evaluate
-from geswarm.sim.controllers.tables import Controller
+from geswarm.sim import Controller, Objective, Scenario, Simulation, Stop, evaluate
 
 _RUNS_PER_CALL = 128  # between two reports of progress; fills the SIMD lanes of two threads
 

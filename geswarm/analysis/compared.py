@@ -11,8 +11,9 @@ from html import escape
 from typing import Any
 
 from geswarm.analysis.cases import Case, Contrast, Samples, contrasts
-from geswarm.automode import Machine, Runnable, format_controller
+from geswarm.automode import Runnable, format_controller
 from geswarm.evaluation import shown
+from geswarm.rules import RuleSet
 
 HEADINGS = ("scenario", "rules", "mean", "median", "sd", "p", "p (Holm)", "effect")
 """Of `Compared.rows`."""
@@ -136,6 +137,6 @@ def _as_html(controller: Runnable) -> str:
     """A table of rules, or AutoMoDe's text."""
     from geswarm.exports import format_html
 
-    if isinstance(controller, Machine):
-        return f"<p><code>{escape(format_controller(controller))}</code></p>"
-    return format_html(controller)
+    if isinstance(controller, RuleSet):
+        return format_html(controller)
+    return f"<p><code>{escape(format_controller(controller))}</code></p>"

@@ -24,7 +24,15 @@ from geswarm.evaluation import Evaluation, evaluate_rule_sets, shown
 from geswarm.evolution import EvolutionRun, RunConfig, preset_for
 from geswarm.ge import PRESETS, RunStore
 from geswarm.rules import RuleSet, RuleSetError
-from geswarm.sim import Scenario, ScenarioError, load_scenario, vocabulary_of
+from geswarm.sim import (
+    ControllerError,
+    Scenario,
+    ScenarioError,
+    load_scenario,
+    parts_of,
+    require_runnable,
+    vocabulary_of,
+)
 
 MARKS = (50, 100, 300, 1000)
 """Generations after which the best rules so far are judged."""
@@ -155,7 +163,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         named: dict[str, Runnable] = {}
         for each in find_controllers(options.rivals):
             named |= each.read(known, options.scenario)
-    except (ScenarioError, RuleSetError, AutoMoDeError) as error:
+        require_runnable(named, parts_of(scenario))
+    except (ScenarioError, RuleSetError, AutoMoDeError, ControllerError) as error:
         parser.error(str(error))
     common = options.directory, scenario, options.presets, options.runs
     evolve_all(*common, options.generations, options.evaluations, options.workers)

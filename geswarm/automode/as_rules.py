@@ -23,7 +23,7 @@ from geswarm.automode.departures import Departure, departures_of
 from geswarm.automode.drawing import REGISTER
 from geswarm.automode.machine import Machine
 from geswarm.automode.machine_text import format_machine
-from geswarm.automode.modules import FIXED, Condition
+from geswarm.automode.modules import Condition
 from geswarm.rules.model import (
     Action,
     BehaviourChange,
@@ -201,15 +201,6 @@ def _drawing(value: str, choice: Choice) -> Rule:
 
 def _at(value: str) -> Precondition:
     return Precondition(Term(REGISTER), value)
-
-
-def terms_of(machine: Machine) -> frozenset[str]:
-    """The names of what a machine does and looks at, as rules have them."""
-    looked_at = [each.condition for state in machine.states for each in state.transitions]
-    conditions = {
-        condition.module.term or "FLOOR" for condition in looked_at if condition.number != FIXED
-    }
-    return frozenset(conditions | {state.behaviour.term.name for state in machine.states})
 
 
 def _term(condition: Condition) -> Term:

@@ -6,16 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from geswarm.automode.as_rules import terms_of
 from geswarm.automode.machine import Machine
+from geswarm.automode.modules_of import foreign_modules, terms_of
 from geswarm.automode.options import AutoMoDeError
 from geswarm.automode.text import Controller, read_controllers
+from geswarm.automode.tree import Tree
 from geswarm.rules.findings import Finding, Place
 from geswarm.rules.library import RuleSetText, find_rule_set, form_of
 from geswarm.rules.model import RuleSet
 from geswarm.rules.vocabulary import FORAGING, Vocabulary
 
-Runnable: TypeAlias = RuleSet | Machine
+Runnable: TypeAlias = RuleSet | Machine | Tree
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class NamedText:
     found: RuleSetText
 
     def read(self, vocabulary: Vocabulary = FORAGING, offered_by: str = "") -> dict[str, Runnable]:
-        """The rule set, or each state machine of a file: its name, `file#2` if there are several.
+        """The rule set, or each controller of a file: its name, `file#2` if there are several.
 
         Args:
             vocabulary: What it may mention.
@@ -41,17 +42,16 @@ class NamedText:
             return {self.name: self.found.read(vocabulary, offered_by)}
         controllers = read_controllers(text, source)
         several = len(controllers) > 1
-        machines: dict[str, Runnable] = {}
+        named: dict[str, Runnable] = {}
         problems = []
         for at, each in enumerate(controllers, start=1):
             mark = f"#{at}" if several else ""
             if problem := _problem(each, vocabulary, offered_by):
                 problems.append(Finding(Place(f"{source}{mark}"), problem))
-            elif isinstance(each, Machine):
-                machines[f"{self.name}{mark}"] = each
+            named[f"{self.name}{mark}"] = each
         if problems:
             raise AutoMoDeError(problems)
-        return machines
+        return named
 
 
 def find_controllers(names: Sequence[str]) -> tuple[NamedText, ...]:
@@ -66,8 +66,8 @@ def find_controllers(names: Sequence[str]) -> tuple[NamedText, ...]:
 
 def _problem(controller: Controller, vocabulary: Vocabulary, offered_by: str) -> str:
     """Why a controller cannot run; empty if it can."""
-    if not isinstance(controller, Machine):
-        return "behaviour trees are read and shown, but cannot be run: expected a machine"
+    if unlike := foreign_modules(controller):
+        return f"behaviour trees run with the modules of machines alone, got {', '.join(unlike)}"
     known = vocabulary.percepts.keys() | vocabulary.behaviour_names.keys()
     missing = sorted(terms_of(controller) - known)
     where = offered_by or "this scenario"

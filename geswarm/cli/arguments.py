@@ -16,7 +16,7 @@ RULES_HELP = (
     "a preset (hand-coded, evo8, evolved, aac, ...), a YAML, text or JSON file, or - for standard "
     "input"
 )
-CONTROLLERS_HELP = f"{RULES_HELP}; machines in AutoMoDe's text, too"
+CONTROLLERS_HELP = f"{RULES_HELP}; controllers in AutoMoDe's text, too"
 SCENARIO_HELP = (
     "a scenario (paper, aac, homing, ...; `geswarm scenarios` lists them) or a YAML file"
 )

@@ -35,7 +35,14 @@ def _compare(options: argparse.Namespace) -> int:
     from geswarm.analysis.compared import Compared
     from geswarm.automode import AutoMoDeError, find_controllers
     from geswarm.rules import RuleSetError
-    from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
+    from geswarm.sim import (
+        ControllerError,
+        ScenarioError,
+        load_scenario,
+        parts_of,
+        require_runnable,
+        vocabulary_of,
+    )
 
     names = options.scenario or ["paper"]
     for what, given in (("rules", options.rules), ("scenario", names)):
@@ -49,7 +56,9 @@ def _compare(options: argparse.Namespace) -> int:
             for each in scenarios
         ]
         rule_sets = read[0]  # a rule set is the same in each vocabulary that has its words
-    except (RuleSetError, AutoMoDeError, ScenarioError) as error:
+        for each in scenarios:
+            require_runnable(rule_sets, parts_of(each))
+    except (RuleSetError, AutoMoDeError, ControllerError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     if options.html is not None:
         require_writable(options.html)

@@ -44,7 +44,14 @@ def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.automode import AutoMoDeError, find_controllers
     from geswarm.evaluation import evaluate_rule_sets
     from geswarm.rules import RuleSetError
-    from geswarm.sim import ScenarioError, load_scenario, vocabulary_of
+    from geswarm.sim import (
+        ControllerError,
+        ScenarioError,
+        load_scenario,
+        parts_of,
+        require_runnable,
+        vocabulary_of,
+    )
 
     try:
         scenario = load_scenario(options.scenario)
@@ -54,7 +61,8 @@ def _evaluate(options: argparse.Namespace) -> int:
             for one in find_controllers(options.rules)
             for pair in one.read(known, options.scenario).items()
         ]
-    except (RuleSetError, AutoMoDeError, ScenarioError) as error:
+        require_runnable(dict(found), parts_of(scenario))
+    except (RuleSetError, AutoMoDeError, ControllerError, ScenarioError) as error:
         raise UsageError(str(error)) from error
     compile_first("geswarm: stopped", scenario)
     with progress_bar() as on_progress:

@@ -38,6 +38,8 @@ Any scenario, with words, measures and an objective of its own:
 
 from geswarm.rules.model import CONTROL_STEP
 from geswarm.sim.batch import BatchResult, EvaluationStopped, Simulation, Stop, can_run, evaluate
+from geswarm.sim.controllers.machines import ControllerError
+from geswarm.sim.controllers.tables import Controller, require_runnable
 from geswarm.sim.cores import available_cores
 from geswarm.sim.library.vocabulary import TermError, parts_of, vocabulary_of
 from geswarm.sim.scenario.model import (
@@ -56,6 +58,8 @@ __all__ = [
     "CONTROL_STEP",
     "NEEDS_RESET",
     "BatchResult",
+    "Controller",
+    "ControllerError",
     "EvaluationStopped",
     "Objective",
     "ObjectiveError",
@@ -74,6 +78,7 @@ __all__ = [
     "load_scenario",
     "parse_scenario",
     "parts_of",
+    "require_runnable",
     "scenario_about",
     "scenario_names",
     "vocabulary_of",

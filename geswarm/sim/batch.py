@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.automode import Machine
+from geswarm.automode import Machine, Tree
 from geswarm.rules.findings import RuleSetError
 from geswarm.rules.model import RuleSet
 from geswarm.sim.assembly.kernel import assemble
@@ -81,7 +81,7 @@ def evaluate(
     """Run simulations; each result depends on its table, scenario and numbers alone.
 
     Args:
-        tables: Rule sets, their control tables, or state machines of AutoMoDe.
+        tables: Rule sets, their control tables, or controllers of AutoMoDe.
         scenario: The same for all simulations.
         simulations: (table, seed, individual, replicate) each.
         workers: Number of threads; None is one per available core.
@@ -109,9 +109,9 @@ def evaluate(
 
 
 def _alike(tables: Sequence[Controller]) -> list[list[int]]:
-    """The numbers of tables that can be compiled together: state machines apart from rules."""
-    machines = [at for at, each in enumerate(tables) if isinstance(each, Machine)]
-    return [[at for at in range(len(tables)) if at not in set(machines)], machines]
+    """The numbers of tables that can be compiled together: AutoMoDe's apart from rules."""
+    automata = [at for at, each in enumerate(tables) if isinstance(each, Machine | Tree)]
+    return [[at for at in range(len(tables)) if at not in set(automata)], automata]
 
 
 def _run(

@@ -7,6 +7,7 @@ entered, which are numbered as behaviours are.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
@@ -18,23 +19,34 @@ from geswarm.sim.terms import automode
 from geswarm.sim.terms.parts import Parts
 
 
+class ControllerError(ValueError):
+    """A controller of AutoMoDe cannot run here; the message says why."""
+
+
 def instances_of(machine: Machine, parts: Parts) -> tuple[Term, ...]:
     """The behaviours of a machine's states: just entered and later, the first state's at the start.
 
     Raises:
-        ValueError: A behaviour is not on offer or takes other arguments.
+        ControllerError: A behaviour is not on offer or takes other arguments.
     """
     terms = [state.behaviour.term for state in machine.states for _ in range(2)]
-    for term in terms:
-        kind = parts.kinds.get(term.name)
-        if kind is None:
-            raise ValueError(f"{term.name} is not on offer in {parts.name}")
-        expected = len(parts.behaviours[kind].arguments)
-        if len(term.arguments) != expected:
-            raise ValueError(f"{term.name}: expected {expected} arguments, got {term.arguments}")
+    require_offered(terms, parts)
     terms += [terms[0]] * max(0, parts.first_instance + 1 - len(terms))
     order = _order(len(terms), parts)
     return tuple(terms[at] for at in order)
+
+
+def require_offered(terms: Iterable[Term], parts: Parts) -> None:
+    """Raise ControllerError unless a scenario has these behaviours, with as many arguments."""
+    for term in terms:
+        kind = parts.kinds.get(term.name)
+        if kind is None:
+            raise ControllerError(f"{term.name} is not on offer in {parts.name}")
+        expected = len(parts.behaviours[kind].arguments)
+        if len(term.arguments) != expected:
+            raise ControllerError(
+                f"{term.name}: expected {expected} arguments, got {term.arguments}"
+            )
 
 
 def _order(number: int, parts: Parts) -> list[int]:
@@ -68,8 +80,8 @@ def outcomes_of(machine: Machine, parts: Parts, number: int) -> npt.NDArray[np.f
     order = _order(len(instances_of(machine, parts)), parts)
     table = np.zeros((parts.codes, number, number, parts.states, 2))
     for code in range(parts.codes):
-        floor, heard = _perceived(parts, code)
-        chance = partial(_chance, floor, heard)
+        floor, heard = perceived(parts, code)
+        chance = partial(chance_of, floor, heard)
         for at, first in itertools.product(range(len(machine.states)), (True, False)):
             here = order[2 * at + (not first)]
             for then, share in next_situations(machine, Situation(at, first), chance).items():
@@ -78,11 +90,12 @@ def outcomes_of(machine: Machine, parts: Parts, number: int) -> npt.NDArray[np.f
     return table.reshape(parts.codes, number, -1)
 
 
-def _chance(floor: str, heard: int, condition: Condition) -> float:
+def chance_of(floor: str, heard: int, condition: Condition) -> float:
+    """The probability that a condition is true for these readings."""
     return condition.chance(floor, heard)
 
 
-def _perceived(parts: Parts, code: int) -> tuple[str, int]:
+def perceived(parts: Parts, code: int) -> tuple[str, int]:
     """Floor and messages of a code of readings."""
     found = {automode.floor_below: 0, automode.messages: 0}
     for sensor in parts.sensors:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from geswarm.automode import Machine
+from geswarm.automode import Machine, Tree
 from geswarm.rules.control_table import ControlTable
-from geswarm.rules.model import RuleSet
+from geswarm.rules.model import RuleSet, Term
 from geswarm.rules.names import require_known_names
 from geswarm.rules.space import Space
 from geswarm.sim.assembly.records import GROUP
 from geswarm.sim.compiled import compile_tables
-from geswarm.sim.controllers import machines
+from geswarm.sim.controllers import machines, trees
+from geswarm.sim.controllers.machines import ControllerError
 from geswarm.sim.controllers.program import Instances, encode, encoded
 from geswarm.sim.controllers.spaces import percepts_of_codes
 from geswarm.sim.kernels.table import (
@@ -31,7 +32,7 @@ from geswarm.sim.kernels.table import (
 )
 from geswarm.sim.terms.parts import MOST_STATE_BITS, Parts
 
-Controller: TypeAlias = RuleSet | ControlTable | Machine
+Controller: TypeAlias = RuleSet | ControlTable | Machine | Tree
 
 _of_thread = threading.local()
 
@@ -85,15 +86,15 @@ def compile_controllers(
     for each in controllers:
         if isinstance(each, RuleSet):
             require_known_names(each, parts.vocabulary)
-    machined = [each for each in controllers if isinstance(each, Machine)]
-    if machined:
-        instances, tables = _of_machines(machined, len(controllers), fails, parts)
+    automata = [each for each in controllers if isinstance(each, Machine | Tree)]
+    if automata:
+        instances, tables = _of_automata(automata, len(controllers), fails, parts)
     elif len(short) == len(controllers):
         instances = [Instances.of(each, parts) for each in short]
         tables = _compiled(*encode(short, instances, fails, parts), None, parts)
     else:
         instances = [Instances.of(RuleSet(), parts)] * len(controllers)
-        known = [each for each in controllers if not isinstance(each, Machine)]
+        known = [each for each in controllers if not isinstance(each, Machine | Tree)]
         dense = _dense([_exact(each, parts) for each in known], parts)
         tables = _compiled(_nothing_but(instances, fails, parts), None, dense, parts)
     sizes = [len(own.terms) for own in instances]
@@ -108,6 +109,20 @@ def compile_controllers(
     )
 
 
+def require_runnable(named: Mapping[str, Controller], parts: Parts) -> None:
+    """Check machines and trees before anything is compiled.
+
+    Raises:
+        ControllerError: One of them cannot run with these parts; says which, and why.
+    """
+    for name, each in named.items():
+        if isinstance(each, Machine | Tree):
+            try:
+                _instances_of(each, parts)
+            except ControllerError as error:
+                raise ControllerError(f"{name}: {error}") from error
+
+
 def no_controllers(parts: Parts) -> Controllers:
     """What stands for one table where no step is going to be run."""
     return Controllers(
@@ -119,20 +134,32 @@ def no_controllers(parts: Parts) -> Controllers:
     )
 
 
-def _of_machines(
-    given: Sequence[Machine], number: int, fails: Sequence[float], parts: Parts
+def _of_automata(
+    given: Sequence[Machine | Tree], number: int, fails: Sequence[float], parts: Parts
 ) -> tuple[list[Instances], Tables]:
-    """Behaviours and tables of state machines."""
+    """Behaviours and tables of state machines and behaviour trees."""
     if len(given) < number:
-        raise ValueError("expected either state machines or rule sets, got both")
-    instances = [Instances(machines.instances_of(each, parts), parts) for each in given]
+        raise ValueError("expected either controllers of AutoMoDe or rule sets, got both")
+    instances = [Instances(_instances_of(each, parts), parts) for each in given]
     most = max(len(own.terms) for own in instances)
-    dense = np.stack([machines.outcomes_of(each, parts, most) for each in given])
+    dense = np.stack([_outcomes_of(each, parts, most) for each in given])
     padded = [
         Instances((*own.terms, *own.terms[:1] * (most - len(own.terms))), parts)
         for own in instances
     ]
     return padded, _compiled(_nothing_but(padded, fails, parts), None, dense, parts)
+
+
+def _instances_of(given: Machine | Tree, parts: Parts) -> tuple[Term, ...]:
+    if isinstance(given, Machine):
+        return machines.instances_of(given, parts)
+    return trees.instances_of(given, parts)
+
+
+def _outcomes_of(given: Machine | Tree, parts: Parts, number: int) -> npt.NDArray[np.float64]:
+    if isinstance(given, Machine):
+        return machines.outcomes_of(given, parts, number)
+    return trees.outcomes_of(given, parts, number)
 
 
 def _exact(controller: RuleSet | ControlTable, parts: Parts) -> ControlTable:
