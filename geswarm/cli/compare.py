@@ -13,6 +13,7 @@ from geswarm.cli.arguments import (
     Verbs,
     add_simulation_options,
 )
+from geswarm.cli.controllers import read_runnable
 from geswarm.cli.output import print_table, progress_bar, require_writable, write_files
 from geswarm.cli.stopping import compile_first
 
@@ -33,33 +34,13 @@ def add_compare(verbs: Verbs) -> None:
 def _compare(options: argparse.Namespace) -> int:
     from geswarm.analysis.cases import Case, run_cases
     from geswarm.analysis.compared import Compared
-    from geswarm.automode import AutoMoDeError, find_controllers
-    from geswarm.rules import RuleSetError
-    from geswarm.sim import (
-        ControllerError,
-        ScenarioError,
-        load_scenario,
-        parts_of,
-        require_runnable,
-        vocabulary_of,
-    )
 
     names = options.scenario or ["paper"]
     for what, given in (("rules", options.rules), ("scenario", names)):
         if twice := [one for one in given if given.count(one) > 1]:
             raise UsageError(f"{what}: expected each one once, got {twice[0]} twice")
-    try:
-        scenarios = [load_scenario(name).with_changes(name=name) for name in names]
-        found = find_controllers(options.rules)
-        read = [
-            dict(pair for one in found for pair in one.read(vocabulary_of(each), each.name).items())
-            for each in scenarios
-        ]
-        rule_sets = read[0]  # a rule set is the same in each vocabulary that has its words
-        for each in scenarios:
-            require_runnable(rule_sets, parts_of(each))
-    except (RuleSetError, AutoMoDeError, ControllerError, ScenarioError) as error:
-        raise UsageError(str(error)) from error
+    scenarios, read = read_runnable(options.rules, names)
+    rule_sets = dict(read)
     if options.html is not None:
         require_writable(options.html)
     compile_first("geswarm: stopped", *scenarios)

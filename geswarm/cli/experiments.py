@@ -15,6 +15,7 @@ from geswarm.cli.arguments import (
     Verbs,
     add_simulation_options,
 )
+from geswarm.cli.controllers import read_runnable
 from geswarm.cli.output import print_table, progress_bar
 from geswarm.cli.stopping import compile_first
 
@@ -41,29 +42,9 @@ def add_experiment_verbs(verbs: Verbs) -> None:
 
 def _evaluate(options: argparse.Namespace) -> int:
     from geswarm.analysis import compare
-    from geswarm.automode import AutoMoDeError, find_controllers
     from geswarm.evaluation import evaluate_rule_sets
-    from geswarm.rules import RuleSetError
-    from geswarm.sim import (
-        ControllerError,
-        ScenarioError,
-        load_scenario,
-        parts_of,
-        require_runnable,
-        vocabulary_of,
-    )
 
-    try:
-        scenario = load_scenario(options.scenario)
-        known = vocabulary_of(scenario)
-        found = [
-            pair
-            for one in find_controllers(options.rules)
-            for pair in one.read(known, options.scenario).items()
-        ]
-        require_runnable(dict(found), parts_of(scenario))
-    except (RuleSetError, AutoMoDeError, ControllerError, ScenarioError) as error:
-        raise UsageError(str(error)) from error
+    (scenario,), found = read_runnable(options.rules, [options.scenario])
     compile_first("geswarm: stopped", scenario)
     with progress_bar() as on_progress:
         evaluations = evaluate_rule_sets(
