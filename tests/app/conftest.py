@@ -22,6 +22,12 @@ CHROMIUM_FLAGS = (
     "--disable-sync",
 )
 VIEWPORT = {"width": 1200, "height": 800}
+FEW_FRAMES = """{
+  const ask = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => window.setTimeout(() => ask(draw), 80);
+  window.cancelAnimationFrame = (asked) => window.clearTimeout(asked);
+}"""
+"""Pages draw ten times a second: without a graphics card each frame costs what others need."""
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -51,6 +57,15 @@ def browser(chromium):
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=list(CHROMIUM_FLAGS))
+        new_context = browser.new_context
+
+        def drawing_seldom(**options):
+            context = new_context(**options)
+            context.add_init_script(FEW_FRAMES)
+            return context
+
+        browser.new_context = drawing_seldom
+        browser.new_page = lambda **options: drawing_seldom(**options).new_page()
         yield browser
         browser.close()
 
