@@ -10,12 +10,13 @@ import numpy as np
 import viser
 
 from geswarm.sim import Scenario, vocabulary_of
-from geswarm.sim.bodies import FOOT_BOT
+from geswarm.sim.bodies import E_PUCK, FOOT_BOT
 
 from .. import palette
 from ..palette import Colour
 from ..state.view import ArenaView, Kind
 from .detail import MOST_IN_FULL, Detail
+from .epuck import distant_epuck, epuck
 from .footbot import distant_footbot, distant_puck, footbot, puck, yaw_quaternions
 from .points import Points
 from .scenery import draw_scenery
@@ -23,6 +24,8 @@ from .shapes import Mesh
 
 _BODY: Colour = (66, 71, 84)
 _TRIM: Colour = (240, 241, 244)
+_LOOKS = {FOOT_BOT.name: (footbot, distant_footbot), E_PUCK.name: (epuck, distant_epuck)}
+"""Of each body: as it is, and with few triangles."""
 _UPRIGHT = np.array((1.0, 0.0, 0.0, 0.0), dtype=np.float32)
 
 
@@ -101,7 +104,7 @@ class ShownArena:
         """
         self.remove()
         self._scene, self._extent = scene, max(scenario.width, scenario.length)
-        self._size = scenario.robot.radius / FOOT_BOT.radius
+        self._looks = _LOOKS[scenario.body]
         self._colours = palette.behaviour_colours(vocabulary_of(scenario))
         self._linear = np.array([palette.linear(c) for c in self._colours], dtype=np.uint8)
         self.handles = ArenaHandles(
@@ -173,12 +176,13 @@ class ShownArena:
             handles.objects.batched_positions = positions
 
     def _new_robots(self, count: int, detail: Detail) -> RobotHandles:
-        look = footbot() if detail is Detail.FULL else distant_footbot()
+        near, far = self._looks
+        look = near() if detail is Detail.FULL else far()
 
         def batch(
             name: str, mesh: Mesh, colour: Colour, opacity: float | None = None
         ) -> viser.BatchedMeshHandle:
-            return self._batch(name, mesh, count, colour, opacity, self._size)
+            return self._batch(name, mesh, count, colour, opacity)
 
         robots = RobotHandles(
             shadows=batch("shadows", look.shadow, (10, 12, 18), 0.4),
@@ -202,11 +206,10 @@ class ShownArena:
         count: int,
         colour: Colour,
         opacity: float | None = None,
-        size: float = 1.0,
     ) -> viser.BatchedMeshHandle:
         return self._scene.add_batched_meshes_simple(
             f"{self.root}/{name}",
-            mesh.vertices * np.float32(size),
+            mesh.vertices,
             mesh.faces,
             batched_wxyzs=np.tile(_UPRIGHT, (count, 1)),
             batched_positions=np.zeros((count, 3), dtype=np.float32),

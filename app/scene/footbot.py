@@ -1,12 +1,7 @@
-"""What a foot-bot looks like: the robot's parts as low-polygon meshes, one mesh per colour.
-
-Proportions follow the foot-bot: two treads in a round base, a ring of LEDs with the gripper in
-front, and a tower with the camera above. x is forward, the origin is on the ground.
-"""
+"""What a foot-bot looks like: two treads in a round base, a ring of LEDs, a tower with a camera."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +9,7 @@ import numpy.typing as npt
 
 from geswarm.sim.footbot import RADIUS
 
+from .look import Look, glow, shadow
 from .shapes import Mesh, lathe, merged, prism
 
 HEIGHT = 0.146
@@ -26,44 +22,20 @@ _RING_LOW, _RING_HIGH = 0.058, 0.094
 _RING_INSIDE = 0.066
 _TOWER_RADIUS = 0.048
 
-_GLOW_LAYERS = ((2.2, 0.0050), (1.95, 0.0056), (1.7, 0.0062), (1.45, 0.0068))
-"""(radius in body radii, z) of faint discs, one above the other: brighter towards the robot."""
 
-
-@dataclass(frozen=True, eq=False)
-class FootBot:
-    """The meshes of one robot.
-
-    Attributes:
-        body: Dark: base, treads, deck, and the arrow on the tower.
-        trim: Light: tower, rim, gripper and the pointer in front.
-        leds: The LED ring, in the colour of the behaviour.
-        shadow: Flat disc below the robot.
-        glow: Flat disc around it, the light of the LEDs on the ground.
-        carried: The object on top of the robot.
-    """
-
-    body: Mesh
-    trim: Mesh
-    leds: Mesh
-    shadow: Mesh
-    glow: Mesh
-    carried: Mesh
-
-
-def footbot() -> FootBot:
+def footbot() -> Look:
     """The meshes of a foot-bot that faces east."""
-    return FootBot(
+    return Look(
         body=_body(),
         trim=_trim(),
         leds=_leds(),
-        shadow=lathe(((1.15 * RADIUS, 0.0078), (0.0, 0.0078)), 20),
-        glow=merged([lathe(((r * RADIUS, z), (0.0, z)), 20) for r, z in _GLOW_LAYERS]),
+        shadow=shadow(RADIUS),
+        glow=glow(RADIUS),
         carried=puck().moved(z=HEIGHT),
     )
 
 
-def distant_footbot() -> FootBot:
+def distant_footbot() -> Look:
     """A foot-bot in about a tenth of the triangles, for swarms too large to look at one robot."""
     ring = (
         (RADIUS, _RING_LOW),
@@ -72,12 +44,12 @@ def distant_footbot() -> FootBot:
     )
     top = HEIGHT + OBJECT_HEIGHT
     arrow = ((-0.030, 0.0), (-0.050, -0.045), (0.065, 0.0), (-0.050, 0.045))
-    return FootBot(
+    return Look(
         body=lathe(((0.078, 0.0), (0.078, _RING_LOW)), 6),
         trim=merged((lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 8), prism(arrow, 0.084, HEIGHT))),
         leds=lathe(ring, 8),
-        shadow=lathe(((1.15 * RADIUS, 0.0078), (0.0, 0.0078)), 6),
-        glow=lathe(((1.7 * RADIUS, 0.0062), (0.0, 0.0062)), 6),
+        shadow=shadow(RADIUS, 6),
+        glow=glow(RADIUS, 6, ((1.7, 0.0062),)),
         carried=lathe(((OBJECT_RADIUS, HEIGHT), (OBJECT_RADIUS, top), (0.0, top)), 5),
     )
 

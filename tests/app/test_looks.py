@@ -5,6 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geswarm.app.scene.epuck import HEIGHT as EPUCK_HEIGHT
+from geswarm.app.scene.epuck import distant_epuck, epuck
 from geswarm.app.scene.footbot import (
     HEIGHT,
     OBJECT_HEIGHT,
@@ -17,12 +19,16 @@ from geswarm.app.scene.footbot import (
 )
 from geswarm.app.scene.lettering import painted, text_width
 from geswarm.app.scene.shapes import box, lathe, line, prism, rectangle
+from geswarm.sim.bodies import E_PUCK
 
 PARTS = vars(footbot())
+EPUCK = vars(epuck())
 WORDS = ["NEST", "SOURCE", "1 m"]
 MESHES = {
     **PARTS,
     **{f"distant {name}": mesh for name, mesh in vars(distant_footbot()).items()},
+    **{f"e-puck's {name}": mesh for name, mesh in EPUCK.items()},
+    **{f"distant e-puck's {name}": mesh for name, mesh in vars(distant_epuck()).items()},
     "puck": puck(),
     **{word: painted(word, 0.3) for word in WORDS},
     "line": line(((0, 0), (1, 0), (1, 0), (1, 1)), 0.1),
@@ -71,12 +77,16 @@ def test_solids_have_outward_faces():
     assert (rectangle((0, 1), (0, 1)).vertices[:, 2] == 0).all()
 
 
-def test_robot_has_the_size_of_a_footbot():
-    body, leds, trim = (PARTS[name].vertices for name in ("body", "leds", "trim"))
-    assert max(body[:, 2].max(), leds[:, 2].max(), trim[:, 2].max()) == pytest.approx(HEIGHT)
-    assert body[:, 2].min() == 0
-    assert np.hypot(*leds[:, :2].T).max() == pytest.approx(RADIUS)
-    assert np.hypot(*body[:, :2].T).max() <= RADIUS + 0.003
+@pytest.mark.parametrize(
+    ("parts", "height", "radius"), [(PARTS, HEIGHT, RADIUS), (EPUCK, EPUCK_HEIGHT, E_PUCK.radius)]
+)
+def test_robots_have_their_size(parts, height, radius):
+    body, leds, trim = (parts[name].vertices for name in ("body", "leds", "trim"))
+    assert max(body[:, 2].max(), leds[:, 2].max(), trim[:, 2].max()) == pytest.approx(height)
+    assert body[:, 2].min() == pytest.approx(0.0, abs=1e-6)
+    assert np.hypot(*leds[:, :2].T).max() == pytest.approx(radius)
+    assert np.hypot(*body[:, :2].T).max() <= radius + 0.003
+    assert parts["carried"].vertices[:, 2].min() == pytest.approx(height)
 
 
 def test_front_is_east():
@@ -85,19 +95,13 @@ def test_front_is_east():
     assert trim[:, 0].min() >= -RADIUS - 1e-6
 
 
-def test_carried_object_stands_on_top():
-    assert PARTS["carried"].vertices[:, 2].min() == pytest.approx(HEIGHT)
-
-
-def test_large_swarms_are_cheap_and_look_alike_from_afar():
-    near, far = vars(footbot()), vars(distant_footbot())
+@pytest.mark.parametrize(("near", "far"), [(footbot, distant_footbot), (epuck, distant_epuck)])
+def test_large_swarms_are_cheap_and_look_alike_from_afar(near, far):
+    near, far = vars(near()), vars(far())
+    assert sum(len(mesh.faces) for mesh in near.values()) < 1000
     assert sum(len(mesh.faces) for mesh in far.values()) < 100
     for name in ("leds", "carried"):
         assert far[name].vertices[:, 2].max() == pytest.approx(near[name].vertices[:, 2].max())
-
-
-def test_two_thousand_robots_remain_cheap():
-    assert sum(len(mesh.faces) for mesh in PARTS.values()) < 1000
 
 
 @given(st.lists(st.floats(-10, 10), min_size=1, max_size=5))
