@@ -5,7 +5,8 @@
         --generations 50 --evaluations 2 --rivals published.txt
 
 Each run lies in its own directory below the given one. The command may be stopped at any time;
-called again it goes on where it stopped, and what is done is not done again.
+called again it goes on where it stopped, also with more generations, and what is done is not done
+again.
 """
 
 from __future__ import annotations
@@ -73,12 +74,14 @@ def evolve_all(
     evaluations: int | None = None,
     workers: int | None = None,
 ) -> None:
-    """Run or resume what is not finished, seed after seed."""
+    """Run, resume or extend what is not finished, seed after seed."""
     for seed in range(1, runs + 1):
         for preset in presets:
             place = _place(directory, preset, seed)
             if (place / "run.db").exists():
                 run = EvolutionRun.resume(place)
+                if generations > run.settings.generations:
+                    run.extend(generations)
             else:
                 given = {} if evaluations is None else {"evaluations": evaluations}
                 settings = preset_for(scenario, preset, generations=generations, **given)

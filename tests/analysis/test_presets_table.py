@@ -24,6 +24,10 @@ def test_the_table_is_made_and_made_again_without_evolving(tmp_path, capsys):
     assert "of 2" in table
     assert presets_table.main(arguments) == 0
     assert capsys.readouterr().out == table
+    assert presets_table.main([*arguments, "--generations", "3"]) == 0
+    extended = capsys.readouterr().out
+    assert "| `paper` | 3 |" in extended
+    assert set(table.splitlines()) < set(extended.splitlines())
 
 
 def test_machines_of_automode_are_rivals_where_the_objective_may_be_negative(tmp_path, capsys):
