@@ -6,7 +6,7 @@ import numpy as np
 
 from geswarm.sim.bodies import E_PUCK
 
-from .look import Look, glow, shadow
+from .robot_meshes import RobotMeshes, glow, shadow
 from .shapes import Mesh, Point, lathe, merged, prism
 
 HEIGHT = 0.052
@@ -19,7 +19,7 @@ _BOARD = 0.029
 _ARROW: tuple[Point, ...] = ((-0.006, 0.0), (-0.013, -0.013), (0.020, 0.0), (-0.013, 0.013))
 
 
-def epuck() -> Look:
+def epuck() -> RobotMeshes:
     """The meshes of an e-puck that faces east."""
     wheels = [_wheel(side * E_PUCK.wheel_base / 2) for side in (1, -1)]
     shell = lathe(((0.027, 0.004), (0.031, _SHELL_LOW), (_RADIUS - 0.003, _RING_LOW)), 20)
@@ -34,7 +34,7 @@ def epuck() -> Look:
     )
     camera = prism(((0.028, -0.006), (0.034, -0.006), (0.034, 0.006), (0.028, 0.006)), 0.016, 0.026)
     arrow = prism(_ARROW, HEIGHT - 0.002, HEIGHT)
-    return Look(
+    return RobotMeshes(
         body=merged((*wheels, camera, arrow)),
         trim=merged((shell, board)),
         leds=_ring(20),
@@ -44,9 +44,9 @@ def epuck() -> Look:
     )
 
 
-def distant_epuck() -> Look:
+def distant_epuck() -> RobotMeshes:
     """An e-puck in about a tenth of the triangles."""
-    return Look(
+    return RobotMeshes(
         body=merged(
             (lathe(((0.030, 0.0), (0.030, _RING_LOW)), 6), prism(_ARROW, HEIGHT - 0.002, HEIGHT))
         ),

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from geswarm.sim.footbot import RADIUS
 
-from .look import Look, glow, shadow
+from .robot_meshes import RobotMeshes, glow, shadow
 from .shapes import Mesh, lathe, merged, prism
 
 HEIGHT = 0.146
@@ -23,9 +23,9 @@ _RING_INSIDE = 0.066
 _TOWER_RADIUS = 0.048
 
 
-def footbot() -> Look:
+def footbot() -> RobotMeshes:
     """The meshes of a foot-bot that faces east."""
-    return Look(
+    return RobotMeshes(
         body=_body(),
         trim=_trim(),
         leds=_leds(),
@@ -35,7 +35,7 @@ def footbot() -> Look:
     )
 
 
-def distant_footbot() -> Look:
+def distant_footbot() -> RobotMeshes:
     """A foot-bot in about a tenth of the triangles, for swarms too large to look at one robot."""
     ring = (
         (RADIUS, _RING_LOW),
@@ -44,7 +44,7 @@ def distant_footbot() -> Look:
     )
     top = HEIGHT + OBJECT_HEIGHT
     arrow = ((-0.030, 0.0), (-0.050, -0.045), (0.065, 0.0), (-0.050, 0.045))
-    return Look(
+    return RobotMeshes(
         body=lathe(((0.078, 0.0), (0.078, _RING_LOW)), 6),
         trim=merged((lathe(((_RING_INSIDE, 0.084), (0.0, 0.084)), 8), prism(arrow, 0.084, HEIGHT))),
         leds=lathe(ring, 8),

@@ -16,7 +16,7 @@ _GLOW_LAYERS = ((2.2, 0.0050), (1.95, 0.0056), (1.7, 0.0062), (1.45, 0.0068))
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class RobotMeshes:
     """The meshes of one robot.
 
     Attributes:
